@@ -1,0 +1,2 @@
+//! From a topology-optimized mesh to beams one can buy, cut and weld.
+pub mod mesh;
