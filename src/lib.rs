@@ -1,2 +1,4 @@
 //! From a topology-optimized mesh to beams one can buy, cut and weld.
 pub mod mesh;
+pub mod observer;
+pub mod skeleton;

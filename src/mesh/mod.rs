@@ -1,1 +1,28 @@
-//! Mesh.
+//! The surface: welded, closed, oriented, labelled.
+//!
+//! [`prepare`](prepare::prepare) turns what a reader delivers into a [`Surface`]; everything later
+//! works on that.
+
+pub mod contour;
+mod edges;
+pub mod error;
+mod fans;
+mod fill;
+pub mod half_edge;
+pub mod id;
+pub mod indexed;
+pub mod interface_section;
+pub mod label;
+mod orient;
+pub mod prepare;
+pub mod set;
+pub mod shell;
+pub mod triangle_tree;
+
+pub use error::MeshError;
+pub use half_edge::HalfEdgeMesh;
+pub use interface_section::{InterfaceKind, InterfaceSection};
+pub use label::{Label, LabelParams};
+pub use prepare::{MeshReport, Surface, prepare};
+pub use set::Labels;
+pub use triangle_tree::TriangleTree;

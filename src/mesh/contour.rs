@@ -1,0 +1,155 @@
+//! The curve in which a plane cuts the surface, followed from triangle to triangle.
+//!
+//! Only the one closed curve through a given triangle is followed, however many others the plane
+//! cuts elsewhere: the cost is the length of that curve, not the size of the mesh.
+//!
+//! ```text
+//!        w (up)             A triangle is entered over a side that runs from above the plane to
+//!       ╱ ╲                 below it. It is left over the side that comes up again: towards w or
+//!  ────╱───╲──── plane      from w. Walking so keeps the material on the left, seen against the
+//!     ╱     ╲               normal (looking down on the upper side).
+//!   up ───── down
+//! ```
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::half_edge::HalfEdgeMesh;
+use super::id::{FaceId, HalfEdgeId};
+
+/// An oriented plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// A point of the plane, mm.
+    pub point: Point3<f64>,
+    /// Unit normal: the upper side.
+    pub normal: Unit<Vector3<f64>>,
+}
+
+impl Plane {
+    /// The plane through `point` with its upper side towards `normal`.
+    pub fn new(point: Point3<f64>, normal: Unit<Vector3<f64>>) -> Self {
+        Self { point, normal }
+    }
+
+    /// Signed distance of a point, mm; points on the plane count as above.
+    pub fn height(&self, p: &Point3<f64>) -> f64 {
+        (p - self.point).dot(&self.normal)
+    }
+
+    /// Two unit vectors that span the plane; with the normal they are right-handed.
+    pub fn axes(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let n = self.normal.into_inner();
+        let mut across = Vector3::zeros();
+        across[n.iamin()] = 1.0;
+        let u = n.cross(&across).normalize();
+        (u, n.cross(&u))
+    }
+}
+
+/// One closed curve of a plane section, as a polygon with a corner on each crossed edge.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contour {
+    /// The crossed sides, from above to below, in walking order.
+    pub half_edges: Vec<HalfEdgeId>,
+    /// Where they are crossed, mm.
+    pub points: Vec<Point3<f64>>,
+}
+
+impl Contour {
+    fn clear(&mut self) {
+        self.half_edges.clear();
+        self.points.clear();
+    }
+}
+
+/// The side over which the contour enters a triangle that the plane cuts: from above to below.
+pub fn entry(mesh: &HalfEdgeMesh, plane: &Plane, face: FaceId) -> Option<HalfEdgeId> {
+    let above = mesh.corners(face).map(|p| plane.height(&p) >= 0.0);
+    (0..3).find(|&k| above[k] && !above[(k + 1) % 3]).map(|k| face.half_edges()[k])
+}
+
+/// Follows the contour over the crossed side `start` into `contour`.
+///
+/// `keep_on` sees every point before it is added; the walk is given up, and `false` returned, when
+/// it says no. `start` must run from above the plane to below it.
+pub fn follow(
+    mesh: &HalfEdgeMesh,
+    plane: &Plane,
+    start: HalfEdgeId,
+    contour: &mut Contour,
+    mut keep_on: impl FnMut(&Point3<f64>) -> bool,
+) -> bool {
+    contour.clear();
+    let height = |h: HalfEdgeId| plane.height(&mesh.position(mesh.origin(h)));
+    let mut h = start;
+    let (mut above, mut below) = (height(h), height(h.next()));
+    loop {
+        let point = crossing(mesh, h, above, below);
+        if !keep_on(&point) {
+            return false;
+        }
+        contour.half_edges.push(h);
+        contour.points.push(point);
+        let apex = height(h.previous());
+        let out = if apex >= 0.0 {
+            above = apex;
+            h.next()
+        } else {
+            below = apex;
+            h.previous()
+        };
+        h = mesh.twin(out);
+        if h == start {
+            return true;
+        }
+    }
+}
+
+/// Where a side is crossed whose ends lie `above` and `below` the plane.
+fn crossing(mesh: &HalfEdgeMesh, h: HalfEdgeId, above: f64, below: f64) -> Point3<f64> {
+    let (a, b) = (mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)));
+    let t = above / (above - below);
+    a + (b - a) * t
+}
+
+/// Size and place of the region a contour encloses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Area centroid, mm.
+    pub centroid: Point3<f64>,
+    /// Signed area, mm²: negative round a hole.
+    pub area: f64,
+    /// Largest distance of a contour point from the centroid, mm.
+    pub reach: f64,
+}
+
+impl Extent {
+    /// Measures a contour in its plane.
+    pub fn of(contour: &Contour, plane: &Plane) -> Self {
+        let n = plane.normal.into_inner();
+        let first = contour.points[0];
+        let mut doubled_area = 0.0;
+        let mut moment = Vector3::zeros();
+        let mut a = contour.points[contour.points.len() - 1] - first;
+        for p in &contour.points {
+            let b = p - first;
+            let w = n.dot(&a.cross(&b));
+            doubled_area += w;
+            moment += (a + b) * w;
+            a = b;
+        }
+        let centroid = if doubled_area == 0.0 { first } else { first + moment / (3.0 * doubled_area) };
+        let reach = contour
+            .points
+            .iter()
+            .map(|p| (p - centroid).norm_squared())
+            .fold(0.0f64, f64::max)
+            .sqrt();
+        Self { centroid, area: 0.5 * doubled_area, reach }
+    }
+
+    /// Radius of the disc of equal area, mm.
+    pub fn radius(&self) -> f64 {
+        (self.area.max(0.0) / std::f64::consts::PI).sqrt()
+    }
+}

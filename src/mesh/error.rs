@@ -1,0 +1,63 @@
+//! Why a mesh cannot be used.
+
+use nalgebra::Point3;
+
+/// Why a surface cannot be turned into a closed, oriented, 2-manifold mesh.
+///
+/// Places are model coordinates in mm, ready to be typed into a viewer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// No triangle is left after the degenerate ones were dropped.
+    #[error("the mesh has no triangle with an area; export the surface mesh again")]
+    NoTriangles,
+
+    /// The surface has openings that are neither small nor flat.
+    #[error(
+        "the surface is open: {edges} border edge(s) in {loops} opening(s), the first at {}; \
+         close the holes (MeshLab: Filters > Remeshing > Close Holes) and try again", place(first)
+    )]
+    Open {
+        /// Border edges that remain.
+        edges: usize,
+        /// Openings that remain.
+        loops: usize,
+        /// Middle of the first border edge.
+        first: Point3<f64>,
+    },
+
+    /// Edges with more than two triangles that do not enclose material.
+    #[error(
+        "{edges} edge(s) join more than two triangles without enclosing material, the first at {}; \
+         remove inner walls (MeshLab: Filters > Cleaning > Repair non Manifold Edges) and try again",
+        place(first)
+    )]
+    NonManifold {
+        /// Edges without a sound pairing.
+        edges: usize,
+        /// Middle of the first one.
+        first: Point3<f64>,
+    },
+
+    /// The surface has one side only.
+    #[error("the surface cannot be oriented: it is one-sided (a Möbius strip) at {}", place(first))]
+    OneSided {
+        /// Middle of an edge across which the sides change.
+        first: Point3<f64>,
+    },
+
+    /// The surface encloses no volume.
+    #[error("the surface encloses no volume; a solid body is needed")]
+    NoVolume,
+
+    /// Every face is labelled non-design.
+    #[error("every face is labelled non-design by {by}; leave the optimised faces unlabelled")]
+    NoDesign {
+        /// The source of the labels, in words.
+        by: &'static str,
+    },
+}
+
+fn place(p: &Point3<f64>) -> String {
+    format!("({:.2}, {:.2}, {:.2}) mm", p.x, p.y, p.z)
+}

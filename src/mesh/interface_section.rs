@@ -1,0 +1,149 @@
+//! Interface sections (thesis §3.4.1.2): the loops between design and non-design faces.
+//!
+//! A loop runs with the design faces on its left, so its area vector points into the design part.
+//! Where it does not, the loop is the rim of a hole through the part (a bolt hole whose wall is
+//! non-design): no branch starts in the empty middle of a hole.
+
+use nalgebra::{Point3, Vector3};
+
+use super::half_edge::HalfEdgeMesh;
+use super::id::{HalfEdgeId, SetId};
+use super::label::Label;
+use super::set::Labels;
+use super::triangle_tree::TriangleTree;
+
+/// A closed loop of edges between the design part and one non-design set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InterfaceSection {
+    /// Sides of design faces, in order; the design part is on the left.
+    pub half_edges: Vec<HalfEdgeId>,
+    /// The set beyond the loop.
+    pub set: SetId,
+    /// Area centroid of the loop, mm: the non-design skeletal point.
+    pub centroid: Point3<f64>,
+    /// Unit area vector: points into the design part.
+    pub normal: Vector3<f64>,
+    /// Enclosed area, mm².
+    pub area: f64,
+    /// What the loop surrounds.
+    pub kind: InterfaceKind,
+}
+
+/// What an interface loop surrounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InterfaceKind {
+    /// Material: a branch begins here.
+    Section,
+    /// The opening of a hole whose wall is non-design.
+    Rim,
+}
+
+impl InterfaceSection {
+    /// Radius of the disc of equal area, mm.
+    pub fn radius(&self) -> f64 {
+        (self.area / std::f64::consts::PI).sqrt()
+    }
+}
+
+/// Area vector and area centroid of a closed polygon in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopFrame {
+    /// Area centroid, mm.
+    pub centroid: Point3<f64>,
+    /// Unit area vector (zero for a loop without area).
+    pub normal: Vector3<f64>,
+    /// Length of the area vector, mm².
+    pub area: f64,
+}
+
+impl LoopFrame {
+    /// ½ Σ (pᵢ − m) × (pᵢ₊₁ − m) about the mean point m, and the centroid of the fan seen along it.
+    pub fn of(points: &[Point3<f64>]) -> Self {
+        let n = points.len();
+        let mean = Point3::from(points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / n as f64);
+        let pieces = (0..n).map(|i| (points[i] - mean, points[(i + 1) % n] - mean));
+        let vector: Vector3<f64> = pieces.clone().map(|(a, b)| a.cross(&b) / 2.0).sum();
+        let area = vector.norm();
+        if area == 0.0 {
+            return Self { centroid: mean, normal: Vector3::zeros(), area };
+        }
+        let normal = vector / area;
+        let moment: Vector3<f64> =
+            pieces.map(|(a, b)| (a + b) / 3.0 * (a.cross(&b).dot(&normal) / 2.0)).sum();
+        Self { centroid: mean + moment / area, normal, area }
+    }
+}
+
+/// All interface sections of a labelled mesh, in the order of their first half-edge.
+pub fn interface_sections(
+    mesh: &HalfEdgeMesh,
+    labels: &Labels,
+    tree: &TriangleTree,
+) -> Vec<InterfaceSection> {
+    let loops = border_loops(mesh, |h| labels.is_design(h.face()));
+    loops
+        .into_iter()
+        .filter_map(|half_edges| {
+            let points: Vec<_> = half_edges.iter().map(|&h| mesh.position(mesh.origin(h))).collect();
+            let Label::NonDesign(set) = labels.of_face[mesh.neighbour(half_edges[0]).index()] else {
+                return None;
+            };
+            let LoopFrame { centroid, normal, area } = LoopFrame::of(&points);
+            let kind = kind_of(&points, &centroid, &normal, area, tree);
+            Some(InterfaceSection { half_edges, set, centroid, normal, area, kind })
+        })
+        .collect()
+}
+
+/// How far in front of a loop, in its radii, the material is looked for. Below, wavy loops hide it;
+/// above, the far side of a thin plate is reached.
+const LOOK_AHEAD: f64 = 0.05;
+
+/// Material in front of most of the loop's inner side means a section, void a rim.
+fn kind_of(
+    points: &[Point3<f64>],
+    centroid: &Point3<f64>,
+    normal: &Vector3<f64>,
+    area: f64,
+    tree: &TriangleTree,
+) -> InterfaceKind {
+    let ahead = normal * (LOOK_AHEAD * (area / std::f64::consts::PI).sqrt());
+    let stride = points.len().div_ceil(16);
+    let samples = points.iter().step_by(stride);
+    let (mut inside, mut all) = (0, 0);
+    for p in samples {
+        all += 1;
+        // A third of the way inwards: clear of the surface, still on this loop's side.
+        inside += usize::from(tree.contains(&(p + (centroid - p) / 3.0 + ahead)));
+    }
+    if 2 * inside >= all { InterfaceKind::Section } else { InterfaceKind::Rim }
+}
+
+/// Closed loops of half-edges whose own face is chosen and whose twin's face is not.
+///
+/// At a vertex where several loops touch, each turns through the chosen faces, so loops never
+/// cross.
+pub(super) fn border_loops(
+    mesh: &HalfEdgeMesh,
+    chosen: impl Fn(HalfEdgeId) -> bool,
+) -> Vec<Vec<HalfEdgeId>> {
+    let on_border = |h: HalfEdgeId| chosen(h) && !chosen(mesh.twin(h));
+    let mut seen = vec![false; 3 * mesh.face_count()];
+    let mut loops = Vec::new();
+    for start in mesh.faces().flat_map(|f| f.half_edges()) {
+        if seen[start.index()] || !on_border(start) {
+            continue;
+        }
+        let mut border = Vec::new();
+        let mut at = start;
+        while !std::mem::replace(&mut seen[at.index()], true) {
+            border.push(at);
+            at = at.next();
+            while !on_border(at) {
+                at = mesh.twin(at).next();
+            }
+        }
+        loops.push(border);
+    }
+    loops
+}

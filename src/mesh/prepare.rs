@@ -1,0 +1,287 @@
+//! From what a file says to a surface one can march on: mends what is safe, reports it, and says
+//! plainly what cannot be used.
+//!
+//! | step | what | function |
+//! |---|---|---|
+//! | 1 | equal points merged, empty and repeated triangles dropped | [`weld`] |
+//! | 2 | sides paired, triangles turned the same way round | `pair_and_orient` |
+//! | 3 | points of a torn surface merged within a tolerance | `merge_near_border_points` |
+//! | 4 | small and flat openings closed | `close_openings` |
+//! | 5 | fans that touch in a vertex separated | `split_shared_vertices` |
+//! | 6 | shells turned outwards; cavities and islands left out | `choose_shells` |
+//! | 7 | labels cleaned, sets and interface sections found | [`Labels`], [`interface_sections`] |
+//!
+//! **Cavities** (closed hollows inside the material) are left out: a curve skeleton cannot see
+//! them, and sections are taken as solid. **Floating islands** (bodies without any non-design
+//! face, when other bodies have some) are left out: nothing holds or loads them. Both are reported
+//! with their volume and place.
+
+use beamwright_formats::RawMesh;
+
+use super::error::MeshError;
+use super::fans::{drop_unused_points, split_shared_vertices};
+use super::fill::close_openings;
+use super::half_edge::HalfEdgeMesh;
+use super::indexed::{IndexedMesh, weld};
+use super::interface_section::{InterfaceSection, interface_sections};
+use super::label::{LabelCounts, LabelParams, extent, non_design_faces};
+use super::orient::{NO_TWIN, Pairing, pair_and_orient};
+use super::set::Labels;
+use super::shell::{Shell, Shells};
+use super::triangle_tree::TriangleTree;
+
+/// A surface ready for marching.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// The closed, outward oriented mesh: design and non-design faces.
+    pub mesh: HalfEdgeMesh,
+    /// Label of each face.
+    pub labels: Labels,
+    /// Loops between design and non-design faces.
+    pub interfaces: Vec<InterfaceSection>,
+    /// Search tree over the triangles of `mesh`, in the same order.
+    pub tree: TriangleTree,
+    /// What was found and mended.
+    pub report: MeshReport,
+}
+
+/// What a file held and what was mended.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshReport {
+    /// Triangles of the surface that is used.
+    pub triangles: usize,
+    /// Its points.
+    pub vertices: usize,
+    /// Points merged because they were equal.
+    pub merged_points: usize,
+    /// Border points merged because they were near.
+    pub merged_near_points: usize,
+    /// Triangles dropped for having no area.
+    pub degenerate_triangles: usize,
+    /// Triangles dropped because another one covers the same corners.
+    pub duplicate_triangles: usize,
+    /// Triangles turned round.
+    pub flipped_triangles: usize,
+    /// Edges with more than two triangles that were cut apart.
+    pub split_edges: usize,
+    /// Vertices made where separate fans touched.
+    pub split_vertices: usize,
+    /// Openings closed.
+    pub closed_openings: usize,
+    /// Hollows inside the material, left out.
+    pub cavities: Vec<Shell>,
+    /// Bodies without non-design faces, left out.
+    pub islands: Vec<Shell>,
+    /// Bodies that are used.
+    pub bodies: usize,
+    /// Tunnels through the surface that is used.
+    pub genus: usize,
+    /// Enclosed volume, mm³.
+    pub volume: f64,
+    /// Area, mm².
+    pub area: f64,
+    /// Diagonal of the bounding box, mm.
+    pub extent: f64,
+    /// Labels by source.
+    pub labels: LabelCounts,
+}
+
+/// Makes a [`Surface`] of what a reader delivers.
+///
+/// # Errors
+/// When the surface is open, not manifold, one-sided or empty beyond what can be mended safely.
+pub fn prepare(raw: &RawMesh, params: &LabelParams) -> Result<Surface, MeshError> {
+    let (mut soup, counts) = weld(raw);
+    let mut report = MeshReport {
+        merged_points: counts.merged_points,
+        degenerate_triangles: counts.degenerate,
+        duplicate_triangles: counts.duplicate,
+        ..MeshReport::default()
+    };
+    if soup.triangles.is_empty() {
+        return Err(MeshError::NoTriangles);
+    }
+    let twins = make_closed(&mut soup, &mut report)?;
+    choose_outward(&mut soup, twins, &mut report)
+        .and_then(|(soup, twins)| label(soup, twins, raw, params, report))
+}
+
+/// Steps 2 to 5.
+fn make_closed(soup: &mut IndexedMesh, report: &mut MeshReport) -> Result<Vec<u32>, MeshError> {
+    let mut pairing = pair_and_orient(soup);
+    if pairing.twins.contains(&NO_TWIN) {
+        report.merged_near_points = merge_near_border_points(soup, &pairing);
+        if report.merged_near_points > 0 {
+            report.duplicate_triangles += soup.drop_duplicates();
+            pairing = pair_and_orient(soup);
+        }
+    }
+    if let Some(first) = pairing.one_sided {
+        return Err(MeshError::OneSided { first });
+    }
+    if let Some((edges, first)) = pairing.unsound {
+        return Err(MeshError::NonManifold { edges, first });
+    }
+    report.flipped_triangles = pairing.flipped;
+    report.split_edges = pairing.split_edges;
+    let mut twins = pairing.twins;
+    let filled = close_openings(soup, &mut twins);
+    report.closed_openings = filled.closed;
+    if let Some((edges, loops, first)) = filled.left {
+        return Err(MeshError::Open { edges, loops, first });
+    }
+    report.split_vertices = split_shared_vertices(soup, &twins);
+    drop_unused_points(soup);
+    Ok(twins)
+}
+
+/// Border points nearer to each other than this part of the shortest border edge are one point.
+/// Rounded coordinates are far nearer, the corners of the smallest triangle just a whole edge away.
+const NEAR: f64 = 0.1;
+
+/// Merges border points that lie within [`NEAR`] of each other; the number merged.
+fn merge_near_border_points(soup: &mut IndexedMesh, pairing: &Pairing) -> usize {
+    let at = |v: u32| soup.positions[v as usize];
+    let mut on_border: Vec<u32> = Vec::new();
+    let mut shortest = f64::INFINITY;
+    for h in (0..pairing.twins.len() as u32).filter(|&h| pairing.twins[h as usize] == NO_TWIN) {
+        let (a, b) = super::edges::ends(&soup.triangles, h);
+        on_border.extend([a, b]);
+        shortest = shortest.min((at(a) - at(b)).norm());
+    }
+    on_border.sort_unstable();
+    on_border.dedup();
+    // Rounding to single precision bounds what "near" may mean from below.
+    let near = NEAR * shortest.min(1e-4 * extent(&soup.positions));
+    on_border.sort_by(|&v, &w| at(v).x.total_cmp(&at(w).x).then(v.cmp(&w)));
+    let mut of_point: Vec<u32> = (0..soup.positions.len() as u32).collect();
+    let mut merged = 0;
+    for (i, &v) in on_border.iter().enumerate() {
+        if of_point[v as usize] != v {
+            continue;
+        }
+        for &w in on_border[i + 1..].iter().take_while(|&&w| at(w).x - at(v).x <= near) {
+            if of_point[w as usize] == w && (at(w) - at(v)).norm() <= near {
+                of_point[w as usize] = v;
+                merged += 1;
+            }
+        }
+    }
+    if merged > 0 {
+        let positions = soup.positions.clone();
+        soup.merge_points(&of_point, positions);
+    }
+    merged
+}
+
+/// Step 6: turns every body outwards and drops the cavities.
+fn choose_outward(
+    soup: &mut IndexedMesh,
+    twins: Vec<u32>,
+    report: &mut MeshReport,
+) -> Result<(IndexedMesh, Vec<u32>), MeshError> {
+    let mut soup = std::mem::take(soup);
+    let mut twins = twins;
+    let mesh = HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins);
+    let shells = Shells::new(&mesh);
+    (soup.positions, soup.triangles, twins) = mesh.into_parts();
+    if shells.all.iter().all(|s| s.volume == 0.0) {
+        return Err(MeshError::NoVolume);
+    }
+    let inside_out: Vec<bool> =
+        shells.of_face.iter().map(|&s| shells.all[s as usize].volume < 0.0).collect();
+    let cavity = |s: &Shell| s.depth > 0;
+    for (s, shell) in shells.all.iter().enumerate() {
+        if cavity(shell) {
+            report.cavities.push(Shell { volume: shell.volume.abs(), ..*shell });
+        } else if shell.volume < 0.0 {
+            report.flipped_triangles +=
+                shells.of_face.iter().filter(|&&of| of as usize == s).count();
+        }
+    }
+    super::orient::flip(&mut soup, &mut twins, &inside_out);
+    let keep: Vec<bool> = shells.of_face.iter().map(|&s| !cavity(&shells.all[s as usize])).collect();
+    keep_faces(&mut soup, &mut twins, &keep);
+    Ok((soup, twins))
+}
+
+/// Drops whole shells; the twins of what stays are renumbered.
+fn keep_faces(soup: &mut IndexedMesh, twins: &mut Vec<u32>, keep: &[bool]) {
+    if !keep.contains(&false) {
+        return;
+    }
+    let mut new_index = vec![0u32; keep.len()];
+    let mut kept = 0;
+    for (f, _) in keep.iter().enumerate().filter(|k| *k.1) {
+        new_index[f] = kept;
+        kept += 1;
+    }
+    let mut f = 0;
+    soup.triangles.retain(|_| (keep[f], f += 1).0);
+    f = 0;
+    soup.sources.retain(|_| (keep[f], f += 1).0);
+    let mut h = 0;
+    twins.retain(|_| (keep[h / 3], h += 1).0);
+    for t in twins.iter_mut() {
+        *t = 3 * new_index[*t as usize / 3] + *t % 3;
+    }
+    drop_unused_points(soup);
+}
+
+/// Step 7, after islands are dropped.
+fn label(
+    mut soup: IndexedMesh,
+    mut twins: Vec<u32>,
+    raw: &RawMesh,
+    params: &LabelParams,
+    mut report: MeshReport,
+) -> Result<Surface, MeshError> {
+    let (mut non_design, counts) = non_design_faces(&soup, raw, params);
+    if let (None, Some((source, _))) =
+        (counts.used, counts.marked.iter().find(|(_, n)| *n == soup.triangles.len()))
+    {
+        return Err(MeshError::NoDesign { by: source.describe() });
+    }
+    report.labels = counts;
+    let mesh = HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins);
+    let shells = Shells::new(&mesh);
+    (soup.positions, soup.triangles, twins) = mesh.into_parts();
+    let keep = held_faces(&shells, &non_design, &mut report);
+    keep_faces(&mut soup, &mut twins, &keep);
+    let mut marks = keep.iter();
+    non_design.retain(|_| *marks.next().unwrap_or(&true));
+    Ok(finish(HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins), non_design, report))
+}
+
+/// Which faces belong to bodies that a non-design part holds (all, when there are no labels).
+fn held_faces(shells: &Shells, non_design: &[bool], report: &mut MeshReport) -> Vec<bool> {
+    let mut held = vec![!non_design.contains(&true); shells.all.len()];
+    for (&s, _) in shells.of_face.iter().zip(non_design).filter(|(_, n)| **n) {
+        held[s as usize] = true;
+    }
+    report.islands =
+        shells.all.iter().zip(&held).filter(|(_, h)| !**h).map(|(s, _)| *s).collect();
+    report.bodies = held.iter().filter(|h| **h).count();
+    shells.of_face.iter().map(|&s| held[s as usize]).collect()
+}
+
+fn finish(mesh: HalfEdgeMesh, non_design: Vec<bool>, mut report: MeshReport) -> Surface {
+    debug_assert_eq!(mesh.check(), Ok(()));
+    let labels = Labels::new(&mesh, non_design);
+    let tree = TriangleTree::new(mesh.faces().map(|f| mesh.corners(f)).collect());
+    let interfaces = interface_sections(&mesh, &labels, &tree);
+    report.triangles = mesh.face_count();
+    report.vertices = mesh.positions().len();
+    report.genus = genus(&mesh, report.bodies);
+    report.volume = mesh.volume();
+    report.area = mesh.faces().map(|f| mesh.face_area(f)).sum();
+    report.extent = extent(mesh.positions());
+    Surface { mesh, labels, interfaces, tree, report }
+}
+
+/// Tunnels of a closed surface: χ = V − E + F = 2 (bodies − genus).
+fn genus(mesh: &HalfEdgeMesh, bodies: usize) -> usize {
+    let (v, f) = (mesh.positions().len() as i64, mesh.face_count() as i64);
+    let euler = v - 3 * f / 2 + f;
+    (bodies as i64 - euler / 2).max(0) as usize
+}

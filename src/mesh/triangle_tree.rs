@@ -1,0 +1,377 @@
+//! A tree of boxes over triangles: inside tests, segment hits and nearest points.
+//!
+//! The tree is a plain median split. Bounds are single precision, rounded outwards: half the
+//! memory, and never a missed triangle.
+
+use nalgebra::{Point3, Vector3};
+
+/// Triangles in one leaf: below four the boxes cost more than they save.
+const LEAF: usize = 4;
+
+/// Directions for the inside test, far from the axes along which CAD models have their faces. The
+/// second is taken when the first meets an edge or a corner exactly, and so on.
+const DIRECTIONS: [[f64; 3]; 4] = [
+    [0.367_879_441, 0.577_215_664, 0.729_153_2],
+    [-0.618_033_988, 0.301_029_995, 0.726_2],
+    [0.271_828_182, -0.693_147_18, 0.667_7],
+    [0.141_421_356, 0.235_711_131, -0.961_5],
+];
+
+/// A tree over the triangles of a surface.
+#[derive(Clone, Debug)]
+pub struct TriangleTree {
+    nodes: Vec<TreeNode>,
+    faces: Vec<u32>,
+    corners: Vec<[Point3<f64>; 3]>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct TreeNode {
+    low: [f32; 3],
+    high: [f32; 3],
+    /// Leaf: start in `faces`. Inner: index of the second child; the first follows the node.
+    link: u32,
+    /// Number of faces in a leaf, 0 for an inner node.
+    count: u32,
+}
+
+/// One place where a ray passes through the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Position of the triangle in the list the tree was made from.
+    pub face: u32,
+    /// Distance along the ray in lengths of its direction.
+    pub at: f64,
+    /// +1 where the ray leaves the body, −1 where it enters.
+    pub sign: i32,
+}
+
+impl TriangleTree {
+    /// Builds the tree; `O(n log n)`.
+    pub fn new(corners: Vec<[Point3<f64>; 3]>) -> Self {
+        let centres: Vec<[f32; 3]> = corners
+            .iter()
+            .map(|[a, b, c]| [0, 1, 2].map(|k| ((a[k] + b[k] + c[k]) / 3.0) as f32))
+            .collect();
+        let mut tree = Self {
+            nodes: Vec::with_capacity(corners.len() / 2 + 1),
+            faces: (0..corners.len() as u32).collect(),
+            corners,
+        };
+        if !tree.corners.is_empty() {
+            let mut faces = std::mem::take(&mut tree.faces);
+            tree.build(&mut faces, 0, &centres);
+            tree.faces = faces;
+        }
+        tree
+    }
+
+    fn build(&mut self, faces: &mut [u32], first: usize, centres: &[[f32; 3]]) {
+        let (low, high) = self.bounds(faces);
+        let node = self.nodes.len();
+        self.nodes.push(TreeNode { low, high, link: first as u32, count: faces.len() as u32 });
+        if faces.len() <= LEAF {
+            return;
+        }
+        let axis = widest_axis(faces, centres);
+        let half = faces.len() / 2;
+        faces.select_nth_unstable_by(half, |&f, &g| {
+            let key = |i: u32| centres[i as usize][axis];
+            key(f).total_cmp(&key(g)).then(f.cmp(&g))
+        });
+        let (near, far) = faces.split_at_mut(half);
+        self.build(near, first, centres);
+        self.nodes[node].link = self.nodes.len() as u32;
+        self.nodes[node].count = 0;
+        self.build(far, first + half, centres);
+    }
+
+    fn bounds(&self, faces: &[u32]) -> ([f32; 3], [f32; 3]) {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for p in faces.iter().flat_map(|&f| &self.corners[f as usize]) {
+            for k in 0..3 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        (low.map(|x| (x as f32).next_down()), high.map(|x| (x as f32).next_up()))
+    }
+
+    /// Whether a point lies inside the surface (winding number above zero).
+    pub fn contains(&self, point: &Point3<f64>) -> bool {
+        self.winding_number(point) > 0
+    }
+
+    /// How often the surface winds round a point: 1 inside, 0 outside of a plain body.
+    pub fn winding_number(&self, point: &Point3<f64>) -> i32 {
+        for direction in DIRECTIONS.map(Vector3::from) {
+            let mut sum = 0;
+            let clear = self.visit_crossings(point, &direction, |c| sum += c.sign);
+            if clear {
+                return sum;
+            }
+        }
+        0
+    }
+
+    /// Calls `visit` for every triangle the ray passes through, in no particular order; false when
+    /// the ray meets an edge or a corner exactly, so that the count cannot be trusted.
+    pub fn visit_crossings(
+        &self,
+        origin: &Point3<f64>,
+        direction: &Vector3<f64>,
+        mut visit: impl FnMut(Crossing),
+    ) -> bool {
+        let ray = Ray::new(origin, direction);
+        let mut clear = true;
+        self.visit_leaves(
+            |n| ray.may_meet(n, f64::INFINITY),
+            |face| match ray.cross(&self.corners[face as usize]) {
+                Hit::At(at, sign) => visit(Crossing { face, at, sign }),
+                Hit::Edge => clear = false,
+                Hit::Miss => {}
+            },
+        );
+        clear
+    }
+
+    /// Whether the open segment `a b` passes through the surface.
+    pub fn is_crossed_by(&self, a: &Point3<f64>, b: &Point3<f64>) -> bool {
+        self.first_crossing(a, b).is_some()
+    }
+
+    /// The crossing of the segment `a b` nearest to `a`, `at` in 0..1 along it.
+    pub fn first_crossing(&self, a: &Point3<f64>, b: &Point3<f64>) -> Option<Crossing> {
+        let ray = Ray::new(a, &(b - a));
+        let mut first: Option<Crossing> = None;
+        self.visit_leaves(
+            |n| ray.may_meet(n, 1.0),
+            |face| match ray.cross(&self.corners[face as usize]) {
+                Hit::At(at, sign) if at <= 1.0 && first.is_none_or(|f| at < f.at) => {
+                    first = Some(Crossing { face, at, sign });
+                }
+                _ => {}
+            },
+        );
+        first
+    }
+
+    /// The nearest point of the surface, its distance and its triangle; `None` without triangles.
+    pub fn nearest(&self, point: &Point3<f64>) -> Option<(Point3<f64>, f64, u32)> {
+        let mut best: Option<(Point3<f64>, f64, u32)> = None;
+        let mut stack = vec![0u32];
+        while let Some(i) = stack.pop() {
+            let Some(node) = self.nodes.get(i as usize) else { continue };
+            if best.is_some_and(|b| node.distance_squared(point) > b.1) {
+                continue;
+            }
+            if node.count == 0 {
+                let (near, far) = (i + 1, node.link);
+                let d = |k: u32| self.nodes[k as usize].distance_squared(point);
+                stack.extend(if d(near) < d(far) { [far, near] } else { [near, far] });
+                continue;
+            }
+            for &face in &self.faces[node.link as usize..(node.link + node.count) as usize] {
+                let q = nearest_on_triangle(point, &self.corners[face as usize]);
+                let d = (q - point).norm_squared();
+                if best.is_none_or(|b| d < b.1) {
+                    best = Some((q, d, face));
+                }
+            }
+        }
+        best.map(|(q, d, f)| (q, d.sqrt(), f))
+    }
+
+    fn visit_leaves(&self, meets: impl Fn(&TreeNode) -> bool, mut visit: impl FnMut(u32)) {
+        let mut i = 0;
+        let mut stack: [u32; 64] = [0; 64];
+        let mut depth = 0;
+        while let Some(node) = self.nodes.get(i) {
+            if meets(node) {
+                if node.count == 0 {
+                    stack[depth] = node.link;
+                    depth += 1;
+                    i += 1;
+                    continue;
+                }
+                let first = node.link as usize;
+                self.faces[first..first + node.count as usize].iter().for_each(|&f| visit(f));
+            }
+            if depth == 0 {
+                return;
+            }
+            depth -= 1;
+            i = stack[depth] as usize;
+        }
+    }
+}
+
+fn widest_axis(faces: &[u32], centres: &[[f32; 3]]) -> usize {
+    let mut low = [f32::INFINITY; 3];
+    let mut high = [f32::NEG_INFINITY; 3];
+    for c in faces.iter().map(|&f| &centres[f as usize]) {
+        for k in 0..3 {
+            low[k] = low[k].min(c[k]);
+            high[k] = high[k].max(c[k]);
+        }
+    }
+    let width = [0, 1, 2].map(|k| high[k] - low[k]);
+    (0..3).fold(0, |best, k| if width[k] > width[best] { k } else { best })
+}
+
+impl TreeNode {
+    fn distance_squared(&self, p: &Point3<f64>) -> f64 {
+        (0..3)
+            .map(|k| {
+                let d = (f64::from(self.low[k]) - p[k]).max(p[k] - f64::from(self.high[k]));
+                d.max(0.0).powi(2)
+            })
+            .sum()
+    }
+}
+
+/// A ray in the shape the watertight triangle test wants it: sheared so that it runs along z.
+///
+/// Woop, Benthin, Wald: *Watertight Ray/Triangle Intersection*, JCGT 2 (2013).
+struct Ray {
+    origin: Point3<f64>,
+    inverse: Vector3<f64>,
+    axes: [usize; 3],
+    shear: [f64; 3],
+}
+
+enum Hit {
+    Miss,
+    Edge,
+    At(f64, i32),
+}
+
+impl Ray {
+    fn new(origin: &Point3<f64>, direction: &Vector3<f64>) -> Self {
+        let z = direction.iamax();
+        let (x, y) =
+            if direction[z] < 0.0 { ((z + 2) % 3, (z + 1) % 3) } else { ((z + 1) % 3, (z + 2) % 3) };
+        let d = direction;
+        Self {
+            origin: *origin,
+            inverse: d.map(|c| 1.0 / c),
+            axes: [x, y, z],
+            shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
+        }
+    }
+
+    fn may_meet(&self, node: &TreeNode, reach: f64) -> bool {
+        let (mut enter, mut leave) = (0.0f64, reach);
+        for k in 0..3 {
+            let near = (f64::from(node.low[k]) - self.origin[k]) * self.inverse[k];
+            let far = (f64::from(node.high[k]) - self.origin[k]) * self.inverse[k];
+            // A NaN (0 · ∞) leaves the interval as it is.
+            enter = enter.max(near.min(far));
+            leave = leave.min(near.max(far));
+        }
+        enter <= leave
+    }
+
+    fn cross(&self, corners: &[Point3<f64>; 3]) -> Hit {
+        let [x, y, z] = self.axes;
+        let [sx, sy, sz] = self.shear;
+        let [a, b, c] = corners.map(|p| p - self.origin);
+        let flat = |p: &Vector3<f64>| (p[x] - sx * p[z], p[y] - sy * p[z]);
+        let ((ax, ay), (bx, by), (cx, cy)) = (flat(&a), flat(&b), flat(&c));
+        let u = cx * by - cy * bx;
+        let v = ax * cy - ay * cx;
+        let w = bx * ay - by * ax;
+        let some_negative = u < 0.0 || v < 0.0 || w < 0.0;
+        let some_positive = u > 0.0 || v > 0.0 || w > 0.0;
+        if some_negative && some_positive {
+            return Hit::Miss;
+        }
+        let det = u + v + w;
+        let at = (u * a[z] + v * b[z] + w * c[z]) * sz / det;
+        if det == 0.0 || u == 0.0 || v == 0.0 || w == 0.0 {
+            return if at >= 0.0 || at.is_nan() { Hit::Edge } else { Hit::Miss };
+        }
+        if at < 0.0 {
+            return Hit::Miss;
+        }
+        Hit::At(at, if det > 0.0 { -1 } else { 1 })
+    }
+}
+
+/// The point of a triangle nearest to `p` (Ericson, *Real-Time Collision Detection*, §5.1.5).
+fn nearest_on_triangle(p: &Point3<f64>, &[a, b, c]: &[Point3<f64>; 3]) -> Point3<f64> {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let bp = p - b;
+    let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * (d1 / (d1 - d3));
+    }
+    let cp = p - c;
+    let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * (d2 / (d2 - d6));
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    let sum = va + vb + vc;
+    a + ab * (vb / sum) + ac * (vc / sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube() -> TriangleTree {
+        let p = |k: usize| Point3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2 & 1) as f64);
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        TriangleTree::new(
+            quads
+                .iter()
+                .flat_map(|&[a, b, c, d]| [[p(a), p(b), p(c)], [p(a), p(c), p(d)]])
+                .collect(),
+        )
+    }
+
+    #[test]
+    fn a_point_is_inside_the_cube_or_not() {
+        let tree = cube();
+        assert_eq!(tree.winding_number(&Point3::new(0.5, 0.5, 0.5)), 1);
+        assert_eq!(tree.winding_number(&Point3::new(1.5, 0.5, 0.5)), 0);
+        assert_eq!(tree.winding_number(&Point3::new(-0.5, 0.1, 0.9)), 0);
+    }
+
+    #[test]
+    fn a_segment_through_a_face_is_seen_with_its_place() {
+        let hit = cube().first_crossing(&Point3::new(0.4, 0.3, -1.0), &Point3::new(0.4, 0.3, 3.0));
+        assert!(hit.is_some_and(|c| (c.at - 0.25).abs() < 1e-12 && c.sign == -1));
+        assert!(!cube().is_crossed_by(&Point3::new(0.1, 0.1, 0.1), &Point3::new(0.9, 0.9, 0.9)));
+    }
+
+    #[test]
+    fn the_nearest_point_may_lie_on_face_edge_or_corner() {
+        let tree = cube();
+        for (p, q) in [
+            ([0.3, 0.4, 2.0], [0.3, 0.4, 1.0]),
+            ([0.3, -1.0, 2.0], [0.3, 0.0, 1.0]),
+            ([2.0, 2.0, 2.0], [1.0, 1.0, 1.0]),
+        ] {
+            let found = tree.nearest(&Point3::from(p)).map(|n| n.0);
+            assert_eq!(found, Some(Point3::from(q)));
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Where junctions lie (thesis §5.2.6): where the straight axes of their branches meet.
+
+use nalgebra::{Matrix3, Point3, Vector3};
+
+use super::axis::{Axis, axis_at_start};
+use super::draft::{Draft, HubKind};
+use crate::mesh::TriangleTree;
+
+/// Pull towards the rough place, against a pull of one by each axis. It decides only along a
+/// direction in which the axes say nothing (all nearly parallel).
+const PULL_OF_ROUGH_PLACE: f64 = 1e-3;
+
+/// The point nearest to all axes: minimises Σ w |(I − d dᵀ)(x − p)|², with a faint pull to `rough`.
+pub(crate) fn meeting_point(axes: &[Axis], rough: &Point3<f64>) -> Point3<f64> {
+    let mut matrix = Matrix3::identity() * PULL_OF_ROUGH_PLACE;
+    let mut right = Vector3::zeros();
+    for axis in axes {
+        let d = axis.direction.into_inner();
+        let across = Matrix3::identity() - d * d.transpose();
+        let w = weight(axis);
+        matrix += across * w;
+        right += across * (axis.point - rough) * w;
+    }
+    matrix.lu().solve(&right).map_or(*rough, |x| rough + x)
+}
+
+/// A long fitted part tells the direction better; beyond six radii nothing is gained.
+fn weight(axis: &Axis) -> f64 {
+    (axis.length / (6.0 * axis.radius)).clamp(0.05, 1.0)
+}
+
+/// Axes of all runs at each hub, in the order of the incidences.
+pub(crate) fn axes_at(draft: &Draft, runs: &[(usize, usize)]) -> Vec<Option<Axis>> {
+    runs.iter().map(|&(r, end)| axis_at_start(&draft.runs[r].seen_from(end))).collect()
+}
+
+/// Places every joint where the axes of its runs meet, inside the object.
+pub(crate) fn place_joints(draft: &mut Draft, tree: &TriangleTree) {
+    let at = draft.incidences();
+    draft.place_roughly();
+    for (hub, runs) in at.iter().enumerate() {
+        if draft.hubs[hub].kind != HubKind::Joint || runs.is_empty() {
+            continue;
+        }
+        if let Some(place) = draft.hubs[hub].pinned {
+            draft.hubs[hub].position = place;
+            continue;
+        }
+        let axes: Vec<Axis> = axes_at(draft, runs).into_iter().flatten().collect();
+        let rough = draft.hubs[hub].position;
+        let meeting = meeting_point(&axes, &rough);
+        draft.hubs[hub].position = nearest_inside(tree, meeting, rough);
+    }
+}
+
+/// `wanted`, or the point nearest to it on the way to `fallback` that lies inside.
+fn nearest_inside(tree: &TriangleTree, wanted: Point3<f64>, fallback: Point3<f64>) -> Point3<f64> {
+    (0..=8)
+        .map(|k| wanted + (fallback - wanted) * (f64::from(k) / 8.0))
+        .find(|p| tree.contains(p))
+        .unwrap_or(fallback)
+}

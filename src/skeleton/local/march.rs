@@ -1,0 +1,265 @@
+//! The march along one branch: a front is carried along the rod until the rod ends.
+//!
+//! ```text
+//!           ┌──────────────┐          c   centroid of the last front
+//!   ╭───────┼──────────────┼───╮      c'  centroid of the next one
+//!         c ●───── h ──────┼─► d      d   marching direction
+//!   ╰───────┼──────────────┼───╯      h   step
+//!           └──────────────┘          w   half-width of the box
+//! ```
+//!
+//! One step: cut the surface ahead inside the identifier box; turn the direction to where the
+//! centroids go; cut again across it; flood the band between the fronts to see that it is a plain
+//! piece of tube; claim it. The march of a branch ends where
+//!
+//! * the next front does not fit the box, or its radius differs from that of the front one radius
+//!   behind by more than the width ratio (thesis §3.4.2.6),
+//! * the surface between the fronts opens into something else,
+//! * a non-design part begins, or another branch has passed already,
+//! * the surface closes: a free end.
+
+use nalgebra::{Unit, Vector3};
+
+use super::band::{Band, Front, Verdict};
+use super::claim::Claims;
+use crate::mesh::contour::{Contour, Extent, Plane, entry, follow};
+use crate::mesh::id::{FaceId, HalfEdgeId};
+use crate::mesh::{HalfEdgeMesh, Surface};
+use crate::skeleton::identifier_box::IdentifierBox;
+use crate::skeleton::params::SkeletonParams;
+
+/// Why a march ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stop {
+    /// No surface ahead: a free end.
+    Ends,
+    /// The next front is wider (or narrower) than the width ratio allows.
+    Widens,
+    /// The surface between the fronts opens into other branches.
+    Splits,
+    /// The branch bends too sharply for two cuts.
+    Bends,
+    /// A non-design part begins.
+    Interface,
+    /// The surface ahead has been passed already.
+    Passed,
+}
+
+/// A marched piece of branch: fronts from one end to the other.
+#[derive(Clone, Debug)]
+pub(crate) struct Tube {
+    pub(crate) fronts: Vec<Front>,
+    /// Why it ends before the first and behind the last front.
+    pub(crate) stops: [Stop; 2],
+}
+
+impl Tube {
+    /// Length along the centroids, mm.
+    pub(crate) fn length(&self) -> f64 {
+        self.fronts.windows(2).map(|w| (w[1].extent.centroid - w[0].extent.centroid).norm()).sum()
+    }
+
+    /// The front in the middle.
+    pub(crate) fn middle(&self) -> &Front {
+        &self.fronts[self.fronts.len() / 2]
+    }
+}
+
+/// Shortest step, in the wanted one, with which a march tries to get closer to its end. Eighths:
+/// the end of a branch is found to a sixteenth of its radius.
+const SHORTEST_STEP: f64 = 0.125;
+
+/// How far back the direction is taken from, in radii. Shorter and the steps of voxel surfaces
+/// turn it (y_form: 20° at one radius); longer and it lags behind in bends.
+const BASE_OF_DIRECTION: f64 = 2.0;
+
+/// Largest turn of the front in one step, as a cosine: 25°. Sharper is a knee.
+const LARGEST_TURN: f64 = 0.906;
+
+/// The march and the surface it has passed.
+#[derive(Debug)]
+pub(crate) struct March<'a> {
+    pub(crate) surface: &'a Surface,
+    pub(crate) params: &'a SkeletonParams,
+    pub(crate) claims: Claims,
+    band: Band,
+}
+
+impl<'a> March<'a> {
+    pub(crate) fn new(surface: &'a Surface, params: &'a SkeletonParams) -> Self {
+        Self {
+            surface,
+            params,
+            claims: Claims::new(surface.mesh.face_count()),
+            band: Band::new(&surface.mesh),
+        }
+    }
+
+    fn mesh(&self) -> &'a HalfEdgeMesh {
+        &self.surface.mesh
+    }
+
+    /// Marches both ways from a front; claims what it passes.
+    pub(crate) fn both_ways(&mut self, seed: Front) -> Tube {
+        let back = self.reversed(&seed);
+        let (ahead, last) = self.one_way(seed);
+        let (mut fronts, first) = match back {
+            Some(back) => self.one_way(back),
+            None => (Vec::new(), Stop::Bends),
+        };
+        fronts.reverse();
+        fronts.pop();
+        let mut fronts: Vec<Front> = fronts.iter().filter_map(|f| self.reversed(f)).collect();
+        fronts.extend(ahead);
+        Tube { fronts, stops: [first, last] }
+    }
+
+    /// The same front, looked at from the other side.
+    fn reversed(&self, front: &Front) -> Option<Front> {
+        let plane = Plane::new(front.plane.point, -front.plane.normal);
+        // Points on the plane count as above on either side, so the crossed sides may differ.
+        let start = front.contour.half_edges.iter().find_map(|h| entry(self.mesh(), &plane, h.face()));
+        self.front(plane, start?, |_| true)
+    }
+
+    /// Marches from `seed` along its normal; all fronts, the seed first.
+    fn one_way(&mut self, seed: Front) -> (Vec<Front>, Stop) {
+        let mut fronts = vec![seed];
+        let mut part = 1.0;
+        // Every step advances by at least a sixteenth of a radius and no band is passed twice.
+        loop {
+            match self.advance(&fronts, part) {
+                Ok(front) => {
+                    let (lower, upper) = (fronts[fronts.len() - 1].plane, front.plane);
+                    self.claims.add(lower, upper, &self.band.faces);
+                    fronts.push(front);
+                    part = f64::min(1.0, 2.0 * part);
+                }
+                Err(Stop::Passed) => return (fronts, Stop::Passed),
+                Err(_) if part > SHORTEST_STEP => part *= 0.5,
+                Err(stop) => return (fronts, stop),
+            }
+        }
+    }
+
+    /// One step of the march, `part` of the wanted step long.
+    fn advance(&mut self, fronts: &[Front], part: f64) -> Result<Front, Stop> {
+        let last = &fronts[fronts.len() - 1];
+        let radius = last.extent.radius();
+        let step = part * self.params.step * radius;
+        let direction = last.plane.normal;
+        let ahead = self.cut_ahead(last, fronts, last.extent.centroid + *direction * step, direction)?;
+        let base = behind(fronts, BASE_OF_DIRECTION * radius);
+        let turned = Unit::try_new(ahead.extent.centroid - base.extent.centroid, 1e-9 * radius)
+            .unwrap_or(direction);
+        let turned = if fronts.len() < 3 { direction } else { turned };
+        if turned.dot(&direction) < LARGEST_TURN {
+            return Err(Stop::Bends);
+        }
+        let next = self.cut_ahead(last, fronts, ahead.extent.centroid, turned)?;
+        self.claim_check(last, &next)?;
+        Ok(next)
+    }
+
+    /// Cuts the surface across `direction` at `centre`, inside the identifier box.
+    fn cut_ahead(
+        &self,
+        last: &Front,
+        fronts: &[Front],
+        centre: nalgebra::Point3<f64>,
+        direction: Unit<Vector3<f64>>,
+    ) -> Result<Front, Stop> {
+        let radius = last.extent.radius();
+        let one_behind = behind(fronts, radius);
+        let ratio = self.params.width_ratio;
+        let around = IdentifierBox::new(centre, direction, ratio * one_behind.extent.reach, radius);
+        let plane = Plane::new(centre, direction);
+        let stride = last.contour.half_edges.len().div_ceil(8).max(1);
+        let mut stop = Stop::Ends;
+        for h in last.contour.half_edges.iter().step_by(stride) {
+            let Some(start) = climb(self.mesh(), &last.plane, &plane, h.face()) else { continue };
+            let Some(front) = self.front(plane, start, |p| around.spans(p)) else {
+                stop = Stop::Widens;
+                continue;
+            };
+            let growth = front.extent.radius() / one_behind.extent.radius();
+            if growth < 1.0 / ratio || growth > ratio {
+                stop = Stop::Widens;
+                continue;
+            }
+            return Ok(front);
+        }
+        Err(stop)
+    }
+
+    /// Whether the band up to `next` is a plain, unpassed piece of the design part.
+    fn claim_check(&mut self, last: &Front, next: &Front) -> Result<(), Stop> {
+        let (h, p) = (&next.contour.half_edges, &next.contour.points);
+        if h.iter().zip(p).any(|(h, p)| self.claims.holds(h.face(), p)) {
+            return Err(Stop::Passed);
+        }
+        match self.band.flood(self.mesh(), last, next) {
+            Verdict::Splits => return Err(Stop::Splits),
+            Verdict::FrontsCross => return Err(Stop::Bends),
+            Verdict::Tube => {}
+        }
+        let labels = &self.surface.labels;
+        if self.band.faces.iter().any(|f| !labels.is_design(*f)) {
+            return Err(Stop::Interface);
+        }
+        Ok(())
+    }
+
+    /// Whether a front lies on unpassed design surface only.
+    pub(crate) fn is_free(&self, front: &Front) -> bool {
+        front.contour.half_edges.iter().zip(&front.contour.points).all(|(h, p)| {
+            self.surface.labels.is_design(h.face()) && !self.claims.holds(h.face(), p)
+        })
+    }
+
+    /// The front over the crossed side `start`, if it encloses material and every point passes.
+    pub(crate) fn front(
+        &self,
+        plane: Plane,
+        start: HalfEdgeId,
+        keep_on: impl FnMut(&nalgebra::Point3<f64>) -> bool,
+    ) -> Option<Front> {
+        let mut contour = Contour::default();
+        if !follow(self.mesh(), &plane, start, &mut contour, keep_on) || contour.points.len() < 3 {
+            return None;
+        }
+        let extent = Extent::of(&contour, &plane);
+        (extent.area > 0.0).then_some(Front { plane, contour, extent })
+    }
+}
+
+/// The front at least `distance` behind the last one, or the first.
+fn behind(fronts: &[Front], distance: f64) -> &Front {
+    let last = fronts[fronts.len() - 1].extent.centroid;
+    fronts
+        .iter()
+        .rev()
+        .find(|f| (f.extent.centroid - last).norm() >= distance)
+        .unwrap_or(&fronts[0])
+}
+
+/// From a triangle cut by `lower`, climbs over the surface to one cut by `upper`; its entry side.
+fn climb(mesh: &HalfEdgeMesh, lower: &Plane, upper: &Plane, face: FaceId) -> Option<HalfEdgeId> {
+    let height = |h: HalfEdgeId| lower.height(&mesh.position(mesh.origin(h)));
+    let [a, b, c] = face.half_edges();
+    let mut top = if height(a) >= height(b) { a } else { b };
+    top = if height(c) > height(top) { c } else { top };
+    loop {
+        if upper.height(&mesh.position(mesh.origin(top))) >= 0.0 {
+            // The triangle of `top` also has the vertex climbed from, which lies below.
+            return entry(mesh, upper, top.face());
+        }
+        let higher = mesh.fan(top).map(|h| h.next()).fold(top, |best, h| {
+            if height(h) > height(best) { h } else { best }
+        });
+        if higher == top {
+            return None;
+        }
+        top = higher;
+    }
+}

@@ -1,0 +1,171 @@
+//! Where a march may start: every place of the surface is asked whether it lies on a rod.
+//!
+//! At a place of the surface the direction of the rod is unknown. Planes through the place in a few
+//! tangent directions are cut; each is then turned across the direction that its contour's surface
+//! normals have least of (on a rod the normals are all across its axis), and the smallest section
+//! is taken. Thesis §5.2.2: the frame is found locally.
+
+use nalgebra::{Matrix3, Point3, SymmetricEigen, Unit, Vector3};
+
+use super::band::Front;
+use super::march::March;
+use crate::mesh::HalfEdgeMesh;
+use crate::mesh::contour::{Contour, Plane, entry};
+use crate::mesh::id::FaceId;
+
+/// A place on the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) face: FaceId,
+    pub(crate) point: Point3<f64>,
+}
+
+/// Places spread over the design faces, one for about `area_each` mm².
+///
+/// Small triangles share a place; large ones are cut in halves until each part has one.
+pub(crate) fn places(
+    mesh: &HalfEdgeMesh,
+    is_design: impl Fn(FaceId) -> bool,
+    area_each: f64,
+) -> Vec<Place> {
+    let mut places = Vec::new();
+    let mut due = 0.5;
+    for face in mesh.faces().filter(|f| is_design(*f)) {
+        spread(face, mesh.corners(face), area_each, &mut due, &mut places);
+    }
+    places
+}
+
+fn spread(
+    face: FaceId,
+    [a, b, c]: [Point3<f64>; 3],
+    area_each: f64,
+    due: &mut f64,
+    places: &mut Vec<Place>,
+) {
+    let area = 0.5 * (b - a).cross(&(c - a)).norm();
+    if area > area_each && area.is_finite() {
+        // Halve the longest side, which is turned to lie between a and b.
+        let (ab, bc, ca) = ((b - a).norm(), (c - b).norm(), (a - c).norm());
+        let [a, b, c] = if ab >= bc && ab >= ca {
+            [a, b, c]
+        } else if bc >= ca {
+            [b, c, a]
+        } else {
+            [c, a, b]
+        };
+        let m = nalgebra::center(&a, &b);
+        spread(face, [a, m, c], area_each, due, places);
+        spread(face, [m, b, c], area_each, due, places);
+        return;
+    }
+    *due += area / area_each;
+    if *due >= 1.0 {
+        *due -= 1.0;
+        places.push(Place { face, point: Point3::from((a.coords + b.coords + c.coords) / 3.0) });
+    }
+}
+
+/// Tangent directions tried at a place: 45° apart. A plane up to 22° off the rod's section still
+/// cuts a closed curve, from which the turning finds the axis.
+const DIRECTIONS: usize = 4;
+
+/// Turns until the plane lies across the rod; each turn squares the error on a plain rod.
+const TURNS: usize = 4;
+
+/// Contours of more than this reach over the best one found are not followed to their end.
+const REACH_OVER_BEST: f64 = 1.5;
+
+impl March<'_> {
+    /// The section across the rod at a place, or `None` where no closed section is found.
+    pub(crate) fn section_at(&self, place: &Place) -> Option<Front> {
+        let normal = Unit::try_new(self.surface.mesh.doubled_area_vector(place.face), 0.0)?;
+        let (u, v) = tangents(&self.surface.mesh, place.face, &normal);
+        let mut best: Option<Front> = None;
+        for k in 0..DIRECTIONS {
+            let angle = std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
+            let direction = Unit::new_normalize(u * angle.cos() + v * angle.sin());
+            let limit = best
+                .as_ref()
+                .map_or(f64::INFINITY, |b| 2.0 * REACH_OVER_BEST * b.extent.reach);
+            let Some(front) = self.turned_across(place, direction, limit) else { continue };
+            if best.as_ref().is_none_or(|b| front.extent.area < b.extent.area) {
+                best = Some(front);
+            }
+        }
+        best
+    }
+
+    fn turned_across(
+        &self,
+        place: &Place,
+        direction: Unit<Vector3<f64>>,
+        limit: f64,
+    ) -> Option<Front> {
+        let mut front = self.section_through(place, direction, limit)?;
+        for _ in 0..TURNS {
+            let axis = axis_of(&self.surface.mesh, &front.contour)?;
+            let axis = if axis.dot(&front.plane.normal) < 0.0 { -axis } else { axis };
+            let cosine = axis.dot(&front.plane.normal);
+            let Some(turned) = self.section_through(place, axis, limit) else { break };
+            front = turned;
+            if cosine > 0.999_9 {
+                break;
+            }
+        }
+        Some(front)
+    }
+
+    fn section_through(
+        &self,
+        place: &Place,
+        direction: Unit<Vector3<f64>>,
+        limit: f64,
+    ) -> Option<Front> {
+        let plane = Plane::new(place.point, direction);
+        let start = entry(&self.surface.mesh, &plane, place.face)?;
+        self.front(plane, start, |p| (p - place.point).norm() <= limit)
+    }
+}
+
+/// Tangents tied to the triangle, so that they turn with the model.
+fn tangents(
+    mesh: &HalfEdgeMesh,
+    face: FaceId,
+    normal: &Unit<Vector3<f64>>,
+) -> (Vector3<f64>, Vector3<f64>) {
+    let [a, b, c] = mesh.corners(face);
+    let longest = [b - a, c - b, a - c]
+        .into_iter()
+        .fold(Vector3::zeros(), |l, s| if s.norm_squared() > l.norm_squared() { s } else { l });
+    let u = longest.normalize();
+    (u, normal.cross(&u))
+}
+
+/// The direction that the surface normals along a contour vary least in.
+///
+/// On a rod they all lie across the axis; on a cone they lean by the same angle, hence "vary".
+fn axis_of(mesh: &HalfEdgeMesh, contour: &Contour) -> Option<Unit<Vector3<f64>>> {
+    let mut sum = Vector3::zeros();
+    let mut squares = Matrix3::zeros();
+    let mut weight = 0.0;
+    let n = contour.points.len();
+    for i in 0..n {
+        let length = (contour.points[(i + 1) % n] - contour.points[i]).norm();
+        let Some(normal) =
+            mesh.doubled_area_vector(contour.half_edges[i].face()).try_normalize(0.0)
+        else {
+            continue;
+        };
+        sum += normal * length;
+        squares += normal * normal.transpose() * length;
+        weight += length;
+    }
+    if weight <= 0.0 {
+        return None;
+    }
+    let spread = squares / weight - (sum / weight) * (sum / weight).transpose();
+    let eigen = SymmetricEigen::new(spread);
+    let least = eigen.eigenvalues.imin();
+    Unit::try_new(eigen.eigenvectors.column(least).into_owned(), 0.5)
+}

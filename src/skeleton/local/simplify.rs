@@ -1,0 +1,157 @@
+//! Makes the draft as simple as the part: one joint where one joint explains all axes, no stubs in
+//! interface sections, no branch into a rounded corner.
+
+use nalgebra::Point3;
+
+use super::axis::{Axis, axis_at_start};
+use super::draft::{Draft, HubKind};
+use super::junction::{meeting_point, place_joints};
+use crate::mesh::{InterfaceSection, TriangleTree};
+
+/// Joints nearer to each other than this many radii of their branches are one: the axes of a plain
+/// joint miss each other by tenths, two joints a radius apart cannot be built.
+const SAME_JOINT: f64 = 1.0;
+
+/// A joint at most this many radii in front of an interface section lies in it: the struts share
+/// the section.
+const AT_INTERFACE: f64 = 1.0;
+
+/// A free end must stand out by this many of its radii over the joint it leaves; rounded corners
+/// stand out by less than one.
+const STANDS_OUT: f64 = 1.5;
+
+/// Simplifies until nothing changes; every change removes a run.
+pub(crate) fn simplify(draft: &mut Draft, interfaces: &[InterfaceSection], tree: &TriangleTree) {
+    loop {
+        draft.remove_false_joints();
+        place_joints(draft, tree);
+        let changed = prune_tips(draft)
+            || merge_joints(draft)
+            || merge_into_interfaces(draft, interfaces);
+        if !changed {
+            return;
+        }
+    }
+}
+
+/// Removes runs that end freely within the reach of their joint; whether any was.
+fn prune_tips(draft: &mut Draft) -> bool {
+    let at = draft.incidences();
+    let is_tip = |hub: usize| draft.hubs[hub].kind == HubKind::Tip;
+    let stub = |run: &super::draft::Run| {
+        let [a, b] = run.hubs;
+        let (joint, tip) = match (is_tip(a), is_tip(b)) {
+            (true, false) => (b, a),
+            (false, true) => (a, b),
+            _ => return false,
+        };
+        if draft.hubs[joint].kind != HubKind::Joint {
+            return false;
+        }
+        let thickest =
+            at[joint].iter().map(|&(r, _)| draft.runs[r].radius()).fold(0.0f64, f64::max);
+        let length = (draft.hubs[tip].position - draft.hubs[joint].position).norm();
+        length < thickest + STANDS_OUT * run.radius()
+    };
+    // One at a time: a joint that loses a branch may be no joint any more.
+    let Some(found) = draft.runs.iter().position(stub) else { return false };
+    draft.runs.remove(found);
+    true
+}
+
+/// Makes one joint of two that are joined by a run shorter than a radius, once both lie where
+/// their axes meet; whether any was.
+///
+/// Struts that leave a joint at a small angle run in one section for a while, which looks like a
+/// branch of its own. Its two joints are placed at the same point by their axes.
+fn merge_joints(draft: &mut Draft) -> bool {
+    let at = draft.incidences();
+    let candidates = draft.runs.iter().enumerate().filter(|(_, run)| {
+        let [a, b] = run.hubs;
+        a != b && [a, b].iter().all(|&h| draft.hubs[h].kind == HubKind::Joint)
+    });
+    for (r, run) in candidates {
+        let [a, b] = run.hubs;
+        let others: Vec<Axis> = [a, b]
+            .iter()
+            .flat_map(|&h| &at[h])
+            .filter(|&&(s, _)| s != r)
+            .filter_map(|&(s, end)| axis_at_start(&draft.runs[s].seen_from(end)))
+            .collect();
+        if others.is_empty() {
+            continue;
+        }
+        let radius = others.iter().map(|o| o.radius).sum::<f64>() / others.len() as f64;
+        let (p, q) = (draft.hubs[a].position, draft.hubs[b].position);
+        let near = (p - q).norm() <= SAME_JOINT * radius;
+        if near || one_point_explains(&others, &p, &q) {
+            merge_hubs(draft, r, a, b);
+            return true;
+        }
+    }
+    false
+}
+
+/// Axes that pass one point within this part of their radius meet there.
+const MEETS: f64 = 0.3;
+
+/// Whether all axes pass one point that lies no farther away than the joints themselves.
+fn one_point_explains(axes: &[Axis], p: &Point3<f64>, q: &Point3<f64>) -> bool {
+    let between = nalgebra::center(p, q);
+    let meeting = meeting_point(axes, &between);
+    let reach = 0.5 * (p - q).norm() + axes.iter().map(|a| a.radius).fold(0.0, f64::max);
+    axes.len() > 2
+        && (meeting - between).norm() <= reach
+        && axes.iter().all(|a| a.distance(&meeting) <= MEETS * a.radius)
+}
+
+/// Removes run `r` and lets everything that ended in `from` end in `into`.
+fn merge_hubs(draft: &mut Draft, r: usize, into: usize, from: usize) {
+    draft.runs.remove(r);
+    for hub in draft.runs.iter_mut().flat_map(|run| &mut run.hubs) {
+        if *hub == from {
+            *hub = into;
+        }
+    }
+}
+
+/// Moves joints that lie in an interface section into it; whether any was.
+fn merge_into_interfaces(draft: &mut Draft, interfaces: &[InterfaceSection]) -> bool {
+    let at = draft.incidences();
+    for (r, run) in draft.runs.iter().enumerate() {
+        let [a, b] = run.hubs;
+        let (joint, interface, i) = match (draft.hubs[a].kind, draft.hubs[b].kind) {
+            (HubKind::Joint, HubKind::Interface(i)) => (a, b, i),
+            (HubKind::Interface(i), HubKind::Joint) => (b, a, i),
+            _ => continue,
+        };
+        let others: Vec<Axis> = at[joint]
+            .iter()
+            .filter(|&&(s, _)| s != r)
+            .filter_map(|&(s, end)| axis_at_start(&draft.runs[s].seen_from(end)))
+            .collect();
+        if others.is_empty() {
+            continue;
+        }
+        let thickest = others.iter().map(|o| o.radius).fold(0.0f64, f64::max);
+        let meeting = meeting_point(&others, &draft.hubs[joint].position);
+        let in_front = (meeting - interfaces[i].centroid).dot(&interfaces[i].normal);
+        if in_front > AT_INTERFACE * thickest {
+            continue;
+        }
+        if run.length() > run.radius() {
+            // The struts run in one section for a while before the interface: the joint stays
+            // where they part.
+            let stations = run.seen_from(usize::from(run.hubs[1] == joint));
+            let place = stations[0].centroid;
+            if draft.hubs[joint].pinned != Some(place) {
+                draft.hubs[joint].pinned = Some(place);
+                return true;
+            }
+            continue;
+        }
+        merge_hubs(draft, r, interface, joint);
+        return true;
+    }
+    false
+}
