@@ -16,10 +16,10 @@ pub struct SkeletonParams {
     /// In which frame the identifier box is carried along.  Default: local.
     pub orientation: Orientation,
 
-    /// Distance between two skeletal points, in section radii of the branch.
+    /// Distance between two skeletal points, in mean strut radii 2 V / A of the design part.
     ///
     /// Smaller follows bends more closely and costs time in proportion.
-    /// Range: `[0.1, 2]`.  Default: `0.5`.
+    /// Range: `[0.1, 2]`.  Default: `1`.
     pub step: f64,
 
     /// Growth of the box, from one to the next, at which a junction begins (thesis §3.4.2.6).
@@ -31,7 +31,7 @@ pub struct SkeletonParams {
 
 impl Default for SkeletonParams {
     fn default() -> Self {
-        Self { orientation: Orientation::Local, step: 0.5, width_ratio: 1.3 }
+        Self { orientation: Orientation::Local, step: 1.0, width_ratio: 1.3 }
     }
 }
 

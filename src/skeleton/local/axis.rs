@@ -55,7 +55,7 @@ pub(crate) fn axis_at_start(stations: &[Station]) -> Option<Axis> {
 }
 
 /// Weights of sections: low where the radius leaves its own linear trend.
-fn weights(stations: &[Station]) -> Vec<f64> {
+pub(crate) fn weights(stations: &[Station]) -> Vec<f64> {
     let n = stations.len();
     if n < 4 {
         return vec![1.0; n];

@@ -4,7 +4,8 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::axis::{Axis, axis_at_start};
 use super::draft::{Draft, HubKind};
-use crate::mesh::TriangleTree;
+use crate::mesh::Surface;
+use crate::skeleton::inside::middle_of_wall;
 
 /// Pull towards the rough place, against a pull of one by each axis. It decides only along a
 /// direction in which the axes say nothing (all nearly parallel).
@@ -35,7 +36,7 @@ pub(crate) fn axes_at(draft: &Draft, runs: &[(usize, usize)]) -> Vec<Option<Axis
 }
 
 /// Places every joint where the axes of its runs meet, inside the object.
-pub(crate) fn place_joints(draft: &mut Draft, tree: &TriangleTree) {
+pub(crate) fn place_joints(draft: &mut Draft, surface: &Surface) {
     let at = draft.incidences();
     draft.place_roughly();
     for (hub, runs) in at.iter().enumerate() {
@@ -49,14 +50,16 @@ pub(crate) fn place_joints(draft: &mut Draft, tree: &TriangleTree) {
         let axes: Vec<Axis> = axes_at(draft, runs).into_iter().flatten().collect();
         let rough = draft.hubs[hub].position;
         let meeting = meeting_point(&axes, &rough);
-        draft.hubs[hub].position = nearest_inside(tree, meeting, rough);
+        draft.hubs[hub].position = nearest_inside(surface, meeting, rough);
     }
 }
 
-/// `wanted`, or the point nearest to it on the way to `fallback` that lies inside.
-fn nearest_inside(tree: &TriangleTree, wanted: Point3<f64>, fallback: Point3<f64>) -> Point3<f64> {
+/// `wanted`, or the point nearest to it on the way to `fallback` that lies inside, or the middle of
+/// the wall next to that.
+fn nearest_inside(surface: &Surface, wanted: Point3<f64>, fallback: Point3<f64>) -> Point3<f64> {
     (0..=8)
         .map(|k| wanted + (fallback - wanted) * (f64::from(k) / 8.0))
-        .find(|p| tree.contains(p))
+        .find(|p| surface.tree.contains(p))
+        .or_else(|| middle_of_wall(&surface.mesh, &surface.tree, &fallback))
         .unwrap_or(fallback)
 }

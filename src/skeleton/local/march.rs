@@ -65,6 +65,10 @@ impl Tube {
     }
 }
 
+/// Step of the march, in radii of the last front. Halved, the bands between two fronts hold too
+/// few triangles of a coarse mesh; doubled, a band may hide a thin branch between its fronts.
+const STEP: f64 = 0.5;
+
 /// Shortest step, in the wanted one, with which a march tries to get closer to its end. Eighths:
 /// the end of a branch is found to a sixteenth of its radius.
 const SHORTEST_STEP: f64 = 0.125;
@@ -146,7 +150,7 @@ impl<'a> March<'a> {
     fn advance(&mut self, fronts: &[Front], part: f64) -> Result<Front, Stop> {
         let last = &fronts[fronts.len() - 1];
         let radius = last.extent.radius();
-        let step = part * self.params.step * radius;
+        let step = part * STEP * radius;
         let direction = last.plane.normal;
         let ahead = self.cut_ahead(last, fronts, last.extent.centroid + *direction * step, direction)?;
         let base = behind(fronts, BASE_OF_DIRECTION * radius);

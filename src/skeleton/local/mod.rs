@@ -1,46 +1,68 @@
 //! The march in the local frame (thesis §5.2.2): the identifier box turns with the branch.
-pub(crate) mod axis;
-pub(crate) mod band;
-pub(crate) mod claim;
-pub(crate) mod draft;
-pub(crate) mod junction;
-pub(crate) mod march;
-pub(crate) mod patch;
-pub(crate) mod sample;
-pub(crate) mod search;
-pub(crate) mod seed;
-pub(crate) mod simplify;
+//!
+//! | step | what | module |
+//! |---|---|---|
+//! | 1 | every place of the surface is asked whether it lies on a rod | [`seed`] |
+//! | 2 | from there a front marches both ways to the ends of the rod and claims the surface | [`march`], [`band`], [`claim`] |
+//! | 3 | the surface is cut along one front of each rod; pieces with a handle are searched again | [`patch`], [`search`] |
+//! | 4 | pieces become hubs, rods become runs; false joints go | [`draft`], [`simplify`] |
+//! | 5 | joints are placed where the straight axes of their runs meet (§5.2.6) | [`axis`], [`junction`] |
+//! | 6 | points are spread along the runs and moved to the centroids of their sections (§5.2.5) | [`sample`] |
+//!
+//! Step 3 is what makes the topology sound: every piece, closed over its cuts, is a sphere, so the
+//! graph of pieces and rods has the tunnels of the object, neither more nor fewer.
+//!
+//! # What differs from the thesis
+//!
+//! * A march starts wherever a rod is found, not only at interface sections, so branches between
+//!   two junctions need no guess of their direction (§3.4.3.1) and no second box twice as large.
+//! * The skeletal point is the area centroid of the branch's own contour, not the mean of the nodes
+//!   in the box; it does not depend on how finely one side is meshed.
+
+mod axis;
+mod band;
+mod claim;
+mod draft;
+mod junction;
+mod march;
+pub(super) mod patch;
+mod sample;
+mod search;
+mod seed;
+mod simplify;
 
 use nalgebra::Point3;
 
 use self::draft::{Draft, HubKind};
 use self::march::March;
+use super::Marched;
 use super::error::SkeletonError;
 use super::graph::{Branch, PointKind, SkeletalPoint, Skeleton};
+use super::inside::way_inside;
 use super::params::SkeletonParams;
+use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
 use crate::observer::Observer;
 
 /// Marches the skeleton of a surface in the local frame.
+///
+/// # Errors
+/// No rod anywhere, or the observer asked to stop.
 pub fn skeleton(
     surface: &Surface,
     params: &SkeletonParams,
     observer: &mut impl Observer,
-) -> Result<Skeleton, SkeletonError> {
-    let t0 = std::time::Instant::now();
+) -> Result<Marched, SkeletonError> {
+    let mean_radius = mean_radius(surface);
     let mut march = March::new(surface, params);
-    let found = search::find_tubes(&mut march, mean_radius(surface), observer)?;
-    let t1 = std::time::Instant::now();
+    let found = search::find_tubes(&mut march, mean_radius, observer)?;
     let mut draft = Draft::new(&found, &surface.interfaces);
-    eprintln!("tubes {} patches {} genus {:?} blobs {} idle {:?}", found.tubes.len(), found.patches.all.len(), found.patches.all.iter().map(|p| p.genus).sum::<usize>(), draft.blobs, draft.idle_interfaces);
-    simplify::simplify(&mut draft, &surface.interfaces, &surface.tree);
-    for (h, runs) in draft.incidences().iter().enumerate() {
-        if !runs.is_empty() { eprintln!("hub {h} {:?} at {:.1?} runs {:?}", draft.hubs[h].kind, draft.hubs[h].position.coords.as_slice(), runs); }
+    if draft.runs.is_empty() {
+        return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }
-    for (i, r) in draft.runs.iter().enumerate() { eprintln!("run {i} {:?} n {} L {:.1} r {:.2}", r.hubs, r.stations.len(), r.length(), r.radius()); }
-    let s = assemble(surface, params, &draft);
-    eprintln!("find {:?} rest {:?}", t1 - t0, t1.elapsed());
-    Ok(s)
+    simplify::simplify(&mut draft, surface);
+    let skeleton = assemble(surface, params.step * mean_radius, &draft);
+    Ok(Marched { skeleton, findings: findings(surface, &draft) })
 }
 
 /// Mean strut radius 2 V / A of the design part closed over its interface sections, mm.
@@ -59,8 +81,26 @@ pub fn mean_radius(surface: &Surface) -> f64 {
     2.0 * volume / area
 }
 
-fn assemble(surface: &Surface, params: &SkeletonParams, draft: &Draft) -> Skeleton {
-    let rm = mean_radius(surface); let nb = neighbourhood(surface, rm); let _ = params;
+fn findings(surface: &Surface, draft: &Draft) -> Vec<Finding> {
+    let idle = draft.idle_interfaces.iter().map(|&i| {
+        Finding::note(
+            FindingKind::IdleInterface,
+            Some(surface.interfaces[i].centroid),
+            "a lump on a non-design part is no branch and was left out",
+        )
+    });
+    let blobs = (draft.blobs > 0).then(|| {
+        Finding::note(
+            FindingKind::NotBeamLike,
+            None,
+            format!("{} body(ies) without any rod were left out", draft.blobs),
+        )
+    });
+    idle.chain(blobs).collect()
+}
+
+/// Turns hubs and runs into points and branches; keeps segments inside.
+fn assemble(surface: &Surface, step: f64, draft: &Draft) -> Skeleton {
     let mut skeleton = Skeleton::default();
     let mut of_hub = vec![u32::MAX; draft.hubs.len()];
     for (h, runs) in draft.incidences().iter().enumerate() {
@@ -78,21 +118,29 @@ fn assemble(surface: &Surface, params: &SkeletonParams, draft: &Draft) -> Skelet
     }
     for run in &draft.runs {
         let ends: [Point3<f64>; 2] = run.hubs.map(|h| draft.hubs[h].position);
+        let kinds = run.hubs.map(|h| draft.hubs[h].kind);
+        let samples = sample::samples(surface, run, kinds, ends, step);
         let mut points = vec![of_hub[run.hubs[0]]];
-        for sample in sample::samples(surface, run, ends, rm, nb) {
-            points.push(skeleton.points.len() as u32);
-            skeleton.points.push(SkeletalPoint {
-                position: sample.position,
-                radius: sample.radius,
-                kind: PointKind::Branch,
-            });
+        let mut at = ends[0];
+        for next in samples.iter().map(Some).chain([None]) {
+            let to = next.map_or(ends[1], |s| s.position);
+            for position in way_inside(&surface.mesh, &surface.tree, &at, &to) {
+                points.push(skeleton.points.len() as u32);
+                let radius = run.radius();
+                skeleton.points.push(SkeletalPoint { position, radius, kind: PointKind::Branch });
+            }
+            at = to;
+            if let Some(s) = next {
+                points.push(skeleton.points.len() as u32);
+                skeleton.points.push(SkeletalPoint {
+                    position: s.position,
+                    radius: s.radius,
+                    kind: PointKind::Branch,
+                });
+            }
         }
         points.push(of_hub[run.hubs[1]]);
         skeleton.branches.push(Branch { points });
     }
     skeleton
-}
-
-fn neighbourhood(surface: &Surface, rm: f64) -> f64 {
-    surface.interfaces.iter().flat_map(|i| i.half_edges.iter().map(|&h| (surface.mesh.position(surface.mesh.origin(h)) - i.centroid).norm())).fold(None, |m: Option<f64>, d| Some(m.map_or(d, |m| m.max(d)))).unwrap_or(2.0 * rm)
 }

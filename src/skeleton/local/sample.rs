@@ -1,12 +1,16 @@
 //! Places the skeletal points of a run: evenly between its hubs, each on the centroid of its own
 //! section (thesis §5.2.5).
 
+use std::f64::consts::PI;
+
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::draft::{Run, Station};
+use super::axis::weights;
+use super::draft::{HubKind, Run};
 use crate::mesh::contour::{Contour, Extent, Plane, entry, follow};
 use crate::mesh::id::HalfEdgeId;
 use crate::mesh::{HalfEdgeMesh, Surface};
+use crate::skeleton::inside::{middle_of_wall, way_inside};
 
 /// A placed point of a run.
 #[derive(Clone, Copy, Debug)]
@@ -16,90 +20,178 @@ pub(crate) struct Sample {
 }
 
 /// Rounds of cutting and moving. The first brings points of the march from its lagging planes to
-/// planes across the curve, the second settles; more change less than a hundredth of a radius.
+/// planes across the curve, the others settle; after four nothing moves by a hundredth of a radius.
 const ROUNDS: usize = 4;
 
-/// A section belongs to the branch up to this many times its median area: more is the junction.
-const LARGEST_AREA: f64 = 2.0;
-const STAR: bool = false;
-const EQ: bool = false;
+/// How much larger than the trend of its branch a section may be.
+///
+/// Up to `follow` a point moves to the centroid of its section; from `leave` on it stays where the
+/// neighbours put it; between, in part, so that no step of the area makes a step of the skeleton.
+#[derive(Clone, Copy)]
+struct Growth {
+    follow: f64,
+    leave: f64,
+}
 
-/// Points between the hubs at `start` and `end`, both left out.
+/// Next to a joint a larger section holds parts of other branches, whose weight would draw the
+/// point off the axis: a fillet adds a tenth, a brace that merges a half.
+const AT_JOINT: Growth = Growth { follow: 1.15, leave: 1.4 };
+
+/// Next to an interface section or a free end the whole section is the branch's own, flared or not.
+const AT_END: Growth = Growth { follow: 2.5, leave: 3.5 };
+
+/// Points between the hubs at `ends`, both left out, about `step` apart.
 pub(crate) fn samples(
     surface: &Surface,
     run: &Run,
-    [start, end]: [Point3<f64>; 2],
+    kinds: [HubKind; 2],
+    ends: [Point3<f64>; 2],
     step: f64,
-    neighbourhood: f64,
 ) -> Vec<Sample> {
-    let radius = run.radius();
-    if radius == 0.0 {
-        return Vec::new();
-    }
-    let curve = base_curve(run, start, end, radius);
+    let Some(trend) = Trend::of(run) else { return Vec::new() };
+    let curve = inner_curve(surface, &base_curve(run, &trend, kinds, ends));
     let mut points = spaced(&curve, step);
-    let mut radii = vec![radius; points.len()];
+    let last = points.len() - 1;
+    let mut radii: Vec<f64> = (0..=last).map(|i| trend.at(i as f64 / last as f64)).collect();
     for _ in 0..ROUNDS {
-        if EQ { let n = points.len() - 1; points = spaced_n(&points, n); }
         let old = points.clone();
-        let last = old.len() - 1;
         for i in 1..last {
+            let part = i as f64 / last as f64;
+            let growth = growth_at(kinds, part);
             let Some(normal) = Unit::try_new(old[i + 1] - old[i - 1], 0.0) else { continue };
-            let own = section_round(surface, run, &old[i], normal).filter(|extent| {
-                let moved = (extent.centroid - old[i]).norm();
-                extent.area <= LARGEST_AREA * radius * radius * std::f64::consts::PI
-                    && moved <= extent.radius()
-            });
-            if let Some(extent) = own {
-                points[i] = extent.centroid;
-                radii[i] = extent.radius();
-            } else {
-                if STAR { points[i] = star_centroid(surface, &Plane::new(old[i], normal), neighbourhood); }
+            let Some(extent) = section_round(surface, run, &old[i], normal) else { continue };
+            let share = growth.share(extent.area / (PI * trend.at(part).powi(2)));
+            let move_by = extent.centroid - old[i];
+            if move_by.norm() <= extent.radius() {
+                points[i] = old[i] + move_by * share;
+                radii[i] = trend.at(part) + (extent.radius() - trend.at(part)) * share;
             }
         }
     }
-    let inner = 1..points.len() - 1;
-    inner.map(|i| Sample { position: points[i], radius: radii[i] }).collect()
+    (1..last)
+        .map(|i| Sample { position: kept_inside(surface, points[i], curve_point(&curve, i, last)), radius: radii[i] })
+        .collect()
 }
 
-/// The centroids between the hubs, without those a hub has moved past.
-fn base_curve(run: &Run, start: Point3<f64>, end: Point3<f64>, radius: f64) -> Vec<Point3<f64>> {
-    let keep = |s: &&Station| {
-        let (from, to) = (s.centroid - start, end - s.centroid);
-        let clear = 0.5 * radius;
-        from.dot(&s.direction) > clear.min(0.2 * (end - start).norm())
-            && to.dot(&s.direction) > clear.min(0.2 * (end - start).norm())
-            || run.hubs[0] == run.hubs[1]
-            || (from.norm() > 3.0 * radius && to.norm() > 3.0 * radius)
+/// The end that is nearer decides.
+fn growth_at(kinds: [HubKind; 2], part: f64) -> Growth {
+    let kind = kinds[usize::from(part > 0.5)];
+    if kind == HubKind::Joint { AT_JOINT } else { AT_END }
+}
+
+impl Growth {
+    /// How far towards the centroid a point goes whose section has `growth` times the trend's area.
+    fn share(self, growth: f64) -> f64 {
+        ((self.leave - growth) / (self.leave - self.follow)).clamp(0.0, 1.0)
+    }
+}
+
+/// Radius along a run: a line through the radii of its sections that swellings do not bend.
+struct Trend {
+    start: f64,
+    end: f64,
+}
+
+impl Trend {
+    fn of(run: &Run) -> Option<Self> {
+        let weights = weights(&run.stations);
+        let n = run.stations.len();
+        let (mut s0, mut s1, mut s2, mut t0, mut t1) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (i, (s, w)) in run.stations.iter().zip(&weights).enumerate() {
+            let x = i as f64 / (n - 1).max(1) as f64;
+            (s0, s1, s2) = (s0 + w, s1 + w * x, s2 + w * x * x);
+            (t0, t1) = (t0 + w * s.radius, t1 + w * x * s.radius);
+        }
+        if s0 == 0.0 {
+            return None;
+        }
+        let det = s0 * s2 - s1 * s1;
+        let slope = if det > 1e-6 * s0 * s0 { (s0 * t1 - s1 * t0) / det } else { 0.0 };
+        let start = (t0 - slope * s1) / s0;
+        let least = 0.3 * t0 / s0;
+        Some(Self { start: start.max(least), end: (start + slope).max(least) })
+    }
+
+    /// Radius at a part 0..1 of the way.
+    fn at(&self, part: f64) -> f64 {
+        self.start + (self.end - self.start) * part
+    }
+}
+
+/// The hubs and the centroids between them, without swollen ones next to joints and without those
+/// a hub has moved past.
+fn base_curve(
+    run: &Run,
+    trend: &Trend,
+    kinds: [HubKind; 2],
+    [start, end]: [Point3<f64>; 2],
+) -> Vec<Point3<f64>> {
+    let n = run.stations.len();
+    let part = |i: usize| i as f64 / (n - 1).max(1) as f64;
+    let swollen = |i: usize| (run.stations[i].radius / trend.at(part(i))).powi(2) > AT_JOINT.follow;
+    let is_joint = kinds.map(|k| k == HubKind::Joint);
+    let passed = |i: usize, hub: &Point3<f64>, sense: f64| {
+        let s = &run.stations[i];
+        sense * (s.centroid - hub).dot(&s.direction) < 0.5 * s.radius
     };
+    let mut first = 0;
+    while first < n && ((is_joint[0] && swollen(first)) || passed(first, &start, 1.0)) {
+        first += 1;
+    }
+    let mut last = n;
+    while last > first && ((is_joint[1] && swollen(last - 1)) || passed(last - 1, &end, -1.0)) {
+        last -= 1;
+    }
+    if first == last {
+        // Nothing is clean: the section in the middle still says where the run passes.
+        (first, last) = (n / 2, n / 2 + usize::from(n > 2));
+    }
     let mut curve = vec![start];
-    curve.extend(run.stations.iter().filter(keep).map(|s| s.centroid));
+    curve.extend(run.stations[first..last].iter().map(|s| s.centroid));
     curve.push(end);
     curve
 }
 
+/// The curve with points put in where it would leave the object.
+fn inner_curve(surface: &Surface, curve: &[Point3<f64>]) -> Vec<Point3<f64>> {
+    let mut inner = vec![curve[0]];
+    for pair in curve.windows(2) {
+        inner.extend(way_inside(&surface.mesh, &surface.tree, &pair[0], &pair[1]));
+        inner.push(pair[1]);
+    }
+    inner
+}
+
+/// The point if it is inside, else the place on the curve, else the middle of the nearest wall.
+fn kept_inside(surface: &Surface, point: Point3<f64>, on_curve: Point3<f64>) -> Point3<f64> {
+    if surface.tree.contains(&point) {
+        return point;
+    }
+    if surface.tree.contains(&on_curve) {
+        return on_curve;
+    }
+    middle_of_wall(&surface.mesh, &surface.tree, &point).unwrap_or(point)
+}
+
 /// Points along a polyline at equal distances near `step`; both ends included.
 fn spaced(curve: &[Point3<f64>], step: f64) -> Vec<Point3<f64>> {
-    let lengths: Vec<f64> = curve.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
-    let total: f64 = lengths.iter().sum();
-    spaced_n(curve, ((total / step).round() as usize).max(1))
+    let total: f64 = curve.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    let count = ((total / step).round() as usize).max(1);
+    (0..=count).map(|k| curve_point(curve, k, count)).collect()
 }
-fn spaced_n(curve: &[Point3<f64>], count: usize) -> Vec<Point3<f64>> {
-    let lengths: Vec<f64> = curve.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
-    let total: f64 = lengths.iter().sum();
-    let mut points = vec![curve[0]];
-    let (mut segment, mut passed) = (0, 0.0);
-    for k in 1..count {
-        let at = total * k as f64 / count as f64;
-        while segment + 1 < lengths.len() && passed + lengths[segment] < at {
-            passed += lengths[segment];
-            segment += 1;
+
+/// The point `k` of `count` equal steps along a polyline.
+fn curve_point(curve: &[Point3<f64>], k: usize, count: usize) -> Point3<f64> {
+    let total: f64 = curve.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    let mut left = total * k as f64 / count as f64;
+    for pair in curve.windows(2) {
+        let length = (pair[1] - pair[0]).norm();
+        if left <= length && length > 0.0 {
+            return pair[0] + (pair[1] - pair[0]) * (left / length);
         }
-        let t = if lengths[segment] > 0.0 { (at - passed) / lengths[segment] } else { 0.0 };
-        points.push(curve[segment] + (curve[segment + 1] - curve[segment]) * t.clamp(0.0, 1.0));
+        left -= length;
     }
-    points.push(curve[curve.len() - 1]);
-    points
+    curve[curve.len() - 1]
 }
 
 /// The section of the branch round a point.
@@ -178,26 +270,4 @@ fn encloses(contour: &Contour, plane: &Plane, point: &Point3<f64>) -> bool {
         a = b;
     }
     inside
-}
-
-/// Centroid of what is seen from a point in its plane, up to `reach`.
-fn star_centroid(surface: &Surface, plane: &Plane, reach: f64) -> Point3<f64> {
-    const RAYS: usize = 36;
-    let (u, v) = plane.axes();
-    let seen: Vec<Vector3<f64>> = (0..RAYS)
-        .map(|k| {
-            let angle = std::f64::consts::TAU * k as f64 / RAYS as f64;
-            let ray = (u * angle.cos() + v * angle.sin()) * reach;
-            let hit = surface.tree.first_crossing(&plane.point, &(plane.point + ray));
-            ray * hit.map_or(1.0, |h| h.at)
-        })
-        .collect();
-    let (mut area, mut moment) = (0.0, Vector3::zeros());
-    for k in 0..RAYS {
-        let (a, b) = (seen[k], seen[(k + 1) % RAYS]);
-        let w = a.cross(&b).dot(&plane.normal);
-        area += w;
-        moment += (a + b) / 3.0 * w;
-    }
-    if area > 0.0 { plane.point + moment / area } else { plane.point }
 }

@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use super::axis::{Axis, axis_at_start};
 use super::draft::{Draft, HubKind};
 use super::junction::{meeting_point, place_joints};
-use crate::mesh::{InterfaceSection, TriangleTree};
+use crate::mesh::{InterfaceSection, Surface};
 
 /// Joints nearer to each other than this many radii of their branches are one: the axes of a plain
 /// joint miss each other by tenths, two joints a radius apart cannot be built.
@@ -21,13 +21,13 @@ const AT_INTERFACE: f64 = 1.0;
 const STANDS_OUT: f64 = 1.5;
 
 /// Simplifies until nothing changes; every change removes a run.
-pub(crate) fn simplify(draft: &mut Draft, interfaces: &[InterfaceSection], tree: &TriangleTree) {
+pub(crate) fn simplify(draft: &mut Draft, surface: &Surface) {
     loop {
         draft.remove_false_joints();
-        place_joints(draft, tree);
+        place_joints(draft, surface);
         let changed = prune_tips(draft)
             || merge_joints(draft)
-            || merge_into_interfaces(draft, interfaces);
+            || merge_into_interfaces(draft, &surface.interfaces);
         if !changed {
             return;
         }

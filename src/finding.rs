@@ -1,0 +1,78 @@
+//! What is odd but workable: told to the user, with its place.
+
+use nalgebra::Point3;
+
+/// What a finding is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum FindingKind {
+    /// The mesh was mended.
+    MeshMended,
+    /// A hollow inside the material was left out.
+    Cavity,
+    /// A body that no non-design part holds was left out.
+    FloatingIsland,
+    /// Labels that mark nothing, or specks of label noise.
+    Labels,
+    /// An interface section that no branch leaves.
+    IdleInterface,
+    /// A part of the surface that is not beam-like.
+    NotBeamLike,
+    /// A skeletal point or segment outside the object.
+    Outside,
+    /// The skeleton has other cycles, components or ends than the object.
+    Topology,
+    /// A branch that ends freely.
+    FreeEnd,
+    /// Nodes so close to each other that they were made one.
+    NodesMerged,
+    /// A beam whose axis leaves the branch by more than wanted.
+    Deviation,
+    /// A section that no profile matches well.
+    PoorMatch,
+}
+
+impl FindingKind {
+    /// The kind in kebab case, for machines.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MeshMended => "mesh-mended",
+            Self::Cavity => "cavity",
+            Self::FloatingIsland => "floating-island",
+            Self::Labels => "labels",
+            Self::IdleInterface => "idle-interface",
+            Self::NotBeamLike => "not-beam-like",
+            Self::Outside => "outside",
+            Self::Topology => "topology",
+            Self::FreeEnd => "free-end",
+            Self::NodesMerged => "nodes-merged",
+            Self::Deviation => "deviation",
+            Self::PoorMatch => "poor-match",
+        }
+    }
+}
+
+/// Something the user should know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// What it is about.
+    pub kind: FindingKind,
+    /// One sentence for people.
+    pub text: String,
+    /// Where, mm.
+    pub place: Option<Point3<f64>>,
+    /// Whether a promise of the program is broken: an error with `--strict`.
+    pub breach: bool,
+}
+
+impl Finding {
+    /// Something worth knowing.
+    pub fn note(kind: FindingKind, place: Option<Point3<f64>>, text: impl Into<String>) -> Self {
+        Self { kind, text: text.into(), place, breach: false }
+    }
+
+    /// A promise that does not hold for this result.
+    pub fn breach(kind: FindingKind, place: Option<Point3<f64>>, text: impl Into<String>) -> Self {
+        Self { kind, text: text.into(), place, breach: true }
+    }
+}
