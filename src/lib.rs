@@ -2,4 +2,5 @@
 pub mod finding;
 pub mod mesh;
 pub mod observer;
+pub mod output;
 pub mod skeleton;

@@ -1,0 +1,2 @@
+//! What leaves the program: STEP for manufacturing.
+pub mod step;

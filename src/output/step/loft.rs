@@ -1,0 +1,135 @@
+//! Beams: outlines at stations along +z, connected, and cut off at both ends.
+//!
+//! ```text
+//!      start cut                              end cut
+//!        ╲   ┌──────────┬───────────────┬─────╱
+//!         ╲  │ station 0│ station 1     │    ╱ station 2     z ─►
+//!          ╲ │          │               │   ╱
+//!           ╲└──────────┴───────────────┴──╱
+//! ```
+//!
+//! The axis of the beam is z; a cut passes through the axis where its end
+//! station stands.  Between stations the surface is ruled or smooth.
+//!
+//! # How oblique cuts are made
+//!
+//! Where the sides next to a cut are planes, cylinders, cones or straight
+//! prisms, they are prolonged or trimmed to the cutting plane, and the edge is
+//! the exact section: a line, an ellipse, an affine image of the outline.  A
+//! B-spline side (a twisted, elliptic or freeform taper, a smooth loft) has no
+//! such exact section.  There, and where a cut would reach past the next
+//! station, the planes of all stations are turned instead, in proportion to
+//! how far they are from either end, until the end stations lie in the cuts:
+//! the outline seen along the axis stays what it was, and the sides never fold.
+
+use nalgebra::Vector3;
+
+use super::error::BodyError;
+use super::levels::Levels;
+use super::outline::Outline;
+use super::piece::Piece;
+
+/// Largest angle between an end cut and a square one.
+///
+/// At 80° the cut face is already 5.8 times as long as the beam is thick.
+pub(super) const MOST_OBLIQUE_DEGREES: f64 = 80.0;
+
+/// A beam along +z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loft {
+    /// Two or more sections, ascending in z.
+    pub stations: Vec<Station>,
+    /// How the surface runs from station to station.
+    pub between: Between,
+    /// How the beam is cut at the first station.
+    pub start: EndCut,
+    /// How the beam is cut at the last station.
+    pub end: EndCut,
+}
+
+/// One section of a [`Loft`].
+///
+/// All stations of a loft have the same number of holes, and their outlines
+/// the same pieces in the same order: a circle can become an ellipse, a
+/// rectangle a larger or turned one, a freeform curve another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Station {
+    /// Height along the axis, mm.
+    pub z: f64,
+    /// The outside.
+    pub outer: Outline,
+    /// The bores, clear of the outside and of each other.
+    pub holes: Vec<Outline>,
+}
+
+/// How the surface runs from station to station.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Between {
+    /// Straight lines from each station to the next.
+    #[default]
+    Ruled,
+    /// One smooth surface through all stations (a natural cubic spline).
+    Smooth,
+}
+
+/// How an end of a beam is cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum EndCut {
+    /// At a right angle to the axis.
+    #[default]
+    Square,
+    /// In a plane through the axis at the end station.
+    Plane {
+        /// Normal of the plane, of any length and either sign; at most 80° off the axis.
+        normal: Vector3<f64>,
+    },
+}
+
+impl Loft {
+    /// A beam of constant section from z = 0 to `length`, cut square.
+    pub fn prism(outer: Outline, holes: Vec<Outline>, length: f64) -> Self {
+        let start = Station { z: 0.0, outer, holes };
+        let end = Station { z: length, ..start.clone() };
+        Self::between_stations(vec![start, end])
+    }
+
+    /// A solid beam from one outline at z = 0 to another at `length`, cut square.
+    pub fn taper(from: Outline, to: Outline, length: f64) -> Self {
+        let station = |z, outer| Station { z, outer, holes: Vec::new() };
+        Self::between_stations(vec![station(0.0, from), station(length, to)])
+    }
+
+    /// A ruled beam through stations, cut square.
+    pub fn between_stations(stations: Vec<Station>) -> Self {
+        let (start, end) = (EndCut::Square, EndCut::Square);
+        Self { stations, between: Between::Ruled, start, end }
+    }
+
+    /// The same beam with its ends cut in planes of the given normals.
+    pub fn cut(self, start: Vector3<f64>, end: Vector3<f64>) -> Self {
+        Self { start: EndCut::Plane { normal: start }, end: EndCut::Plane { normal: end }, ..self }
+    }
+
+    /// Volume, mm³, by integration over the exact surface.
+    ///
+    /// # Errors
+    /// If the loft is not a solid.
+    pub fn volume(&self) -> Result<f64, BodyError> {
+        self.levels()?.volume()
+    }
+
+    pub(super) fn levels(&self) -> Result<Levels, BodyError> {
+        Levels::new(self)
+    }
+}
+
+impl Station {
+    /// The rings of the station: outside counter-clockwise, holes clockwise.
+    pub(super) fn rings(&self) -> Result<Vec<Vec<Piece>>, BodyError> {
+        let mut rings = vec![self.outer.ring()?];
+        for hole in &self.holes {
+            rings.push(super::outline::reversed(&hole.ring()?));
+        }
+        Ok(rings)
+    }
+}

@@ -1,0 +1,162 @@
+//! Documents that show every kind of body, for the tests of the STEP writer.
+#![allow(dead_code)] // each test uses some of it
+
+use std::f64::consts::TAU;
+
+use beamwright::output::step::{
+    Between, Body, Document, EndCut, Freeform, Group, Loft, Outline, Part, Path, Station,
+};
+use nalgebra::{Isometry3, Point2, Rotation2, Vector2, Vector3};
+
+/// Length of the beams; 75° cuts of the widest section leave some of it.
+pub const LENGTH: f64 = 300.0;
+
+/// A document, and the file name it is written under.
+pub struct Case {
+    pub name: &'static str,
+    pub document: Document,
+}
+
+/// A section of a family of similar ones: its outside and its holes.
+pub type Section = (Outline, Vec<Outline>);
+
+/// Makes a section of a family: scaled along x and y, turned by an angle.
+pub type Profile = fn(Vector2<f64>, f64) -> Section;
+
+/// Every outline kind, by name.
+pub fn profiles() -> Vec<(&'static str, Profile)> {
+    vec![
+        ("round", |s, _| (Outline::circle(20.0 * s.x), vec![])),
+        ("tube", |s, _| (Outline::circle(20.0 * s.x), vec![Outline::circle(15.0 * s.x)])),
+        ("eccentric", |s, _| {
+            let centre = Point2::new(3.0, -2.0) * s.x;
+            let bore = Outline::Circle { centre, radius: 10.0 * s.x };
+            (Outline::circle(20.0 * s.x), vec![bore])
+        }),
+        ("ellipse", |s, turn| (ellipse(24.0 * s.x, 15.0 * s.y, turn), vec![])),
+        ("elliptic_tube", |s, turn| {
+            (ellipse(24.0 * s.x, 15.0 * s.y, turn), vec![ellipse(20.0 * s.x, 11.0 * s.y, turn)])
+        }),
+        ("rectangle", |s, turn| (moved(Path::rectangle(40.0, 30.0).unwrap(), s, turn), vec![])),
+        ("box", |s, turn| {
+            let bore = moved(Path::rounded_rectangle(32.0, 22.0, 3.0).unwrap(), s, turn);
+            (moved(Path::rounded_rectangle(40.0, 30.0, 7.0).unwrap(), s, turn), vec![bore])
+        }),
+        ("i", |s, turn| (moved(Path::i_section(40.0, 24.0, 4.0, 6.0, 3.0).unwrap(), s, turn), vec![])),
+        ("channel", |s, turn| (moved(Path::channel(40.0, 20.0, 4.0, 5.0, 3.0).unwrap(), s, turn), vec![])),
+        ("angle", |s, turn| (moved(Path::angle(40.0, 30.0, 5.0, 5.0, 2.5).unwrap(), s, turn), vec![])),
+        ("freeform", |s, turn| (freeform(24, s, turn), vec![])),
+    ]
+}
+
+fn ellipse(a: f64, b: f64, turn: f64) -> Outline {
+    Outline::Ellipse { centre: Point2::origin(), half_axes: [a, b], turn }
+}
+
+/// A path scaled by `s.x` all over, and turned.  Arcs stay circles.
+fn moved(path: Path, s: Vector2<f64>, turn: f64) -> Outline {
+    use beamwright::output::step::Segment;
+    let turn = Rotation2::new(turn);
+    let to = |p: Point2<f64>| turn * (p * s.x);
+    let segments = path.segments.iter().map(|segment| match *segment {
+        Segment::Line { to: end } => Segment::Line { to: to(end) },
+        Segment::Arc { to: end, sweep } => Segment::Arc { to: to(end), sweep },
+    });
+    Outline::Path(Path { start: to(path.start), segments: segments.collect() })
+}
+
+/// A wavy closed curve through `n` points.
+pub fn freeform(n: usize, s: Vector2<f64>, turn: f64) -> Outline {
+    let points: Vec<_> = (0..n)
+        .map(|i| {
+            let t = TAU * i as f64 / n as f64;
+            let r = 17.0 + 2.5 * (3.0 * t).cos() + 0.8 * (5.0 * t + 1.0).sin();
+            Rotation2::new(turn) * Point2::new(r * t.cos() * s.x, 0.85 * r * t.sin() * s.y)
+        })
+        .collect();
+    Outline::Freeform(Freeform::through(&points).unwrap())
+}
+
+/// Every way to loft a profile, by name.
+pub fn lofts(profile: Profile) -> Vec<(&'static str, Loft)> {
+    let station = |z: f64, x: f64, y: f64, turn: f64| {
+        let (outer, holes) = profile(Vector2::new(x, y), turn);
+        Station { z, outer, holes }
+    };
+    let l = LENGTH;
+    let multi = vec![
+        station(0.0, 1.0, 1.0, 0.0),
+        station(0.3 * l, 0.8, 0.9, 0.0),
+        station(0.7 * l, 0.9, 0.8, 0.0),
+        station(l, 0.7, 0.7, 0.0),
+    ];
+    let smooth = Loft { between: Between::Smooth, ..Loft::between_stations(multi.clone()) };
+    vec![
+        ("constant", Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.2), station(l, 1.0, 1.0, 0.2)])),
+        ("taper", Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.0), station(l, 0.7, 0.7, 0.0)])),
+        ("widening", Loft::between_stations(vec![station(0.0, 0.7, 0.7, 0.0), station(l, 1.0, 0.8, 0.0)])),
+        ("twist", Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.0), station(l, 0.8, 0.9, 0.6)])),
+        ("multi", Loft::between_stations(multi)),
+        ("smooth", smooth),
+    ]
+}
+
+/// Every way to cut the ends, by name.
+pub fn cuts() -> Vec<(&'static str, EndCut, EndCut)> {
+    let tilted = |degrees: f64, azimuth: f64| {
+        let (tilt, azimuth) = (degrees.to_radians(), azimuth.to_radians());
+        let across = Vector3::new(azimuth.cos(), azimuth.sin(), 0.0);
+        EndCut::Plane { normal: Vector3::z() * tilt.cos() + across * tilt.sin() }
+    };
+    vec![
+        ("square", EndCut::Square, EndCut::Square),
+        ("one_mitre", EndCut::Square, tilted(45.0, 30.0)),
+        ("mitres", tilted(45.0, 0.0), tilted(30.0, 110.0)),
+        ("steep", tilted(75.0, 20.0), tilted(75.0, 200.0)),
+        ("parallel", tilted(60.0, 45.0), tilted(60.0, 45.0)),
+    ]
+}
+
+/// A placement that leaves no coordinate plain.
+pub fn placement(i: usize) -> Isometry3<f64> {
+    let i = i as f64;
+    let turn = Vector3::new(0.3 + 0.1 * i, -0.7 + 0.2 * i, 0.5 * i);
+    Isometry3::new(Vector3::new(400.0 * i, 10.0 * i, -7.0 * i), turn)
+}
+
+/// A part without properties at the origin.
+pub fn part(name: &str, body: Body) -> Part {
+    Part {
+        name: name.to_owned(),
+        product: name.to_owned(),
+        colour: [70, 130, 180],
+        placement: Isometry3::identity(),
+        body,
+        properties: vec![],
+    }
+}
+
+/// A document of one group.
+pub fn document(name: &str, parts: Vec<Part>) -> Document {
+    let group = Group { name: "Beams".into(), parts, groups: vec![] };
+    Document { name: name.into(), groups: vec![group] }
+}
+
+/// One document per profile, with all lofts in all cuts.
+pub fn beams() -> Vec<Case> {
+    profiles().into_iter().map(|(name, profile)| Case { name, document: document(name, all(profile)) }).collect()
+}
+
+fn all(profile: Profile) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for (loft_name, loft) in lofts(profile) {
+        for (cut_name, start, end) in cuts() {
+            let body = Body::Loft(Loft { start, end, ..loft.clone() });
+            let mut part = part(&format!("{loft_name} {cut_name}"), body);
+            part.placement = placement(parts.len());
+            part.colour = [(40 * parts.len() % 256) as u8, 120, 200];
+            parts.push(part);
+        }
+    }
+    parts
+}
