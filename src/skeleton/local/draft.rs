@@ -6,11 +6,13 @@
 
 use nalgebra::{Point3, Unit, Vector3};
 
+use super::axis::{Axis, axis_at_start};
+use super::junction::meeting_point;
 use super::march::Tube;
 use super::patch::CutSide;
 use super::search::Found;
 use crate::mesh::id::HalfEdgeId;
-use crate::mesh::{InterfaceKind, InterfaceSection};
+use crate::mesh::{InterfaceKind, InterfaceSection, Surface};
 
 /// One section on the way of a run.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +37,8 @@ pub(crate) enum HubKind {
     Interface(usize),
     /// A free end.
     Tip,
+    /// A sharp bend of one branch.
+    Knee,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -162,7 +166,7 @@ impl Draft {
     pub(crate) fn place_roughly(&mut self) {
         let at = self.incidences();
         for (hub, runs) in at.iter().enumerate() {
-            if matches!(self.hubs[hub].kind, HubKind::Interface(_)) {
+            if matches!(self.hubs[hub].kind, HubKind::Interface(_) | HubKind::Knee) {
                 continue;
             }
             let near: Vec<Point3<f64>> = runs
@@ -180,19 +184,25 @@ impl Draft {
         }
     }
 
-    /// Joins the two runs at every joint that has only two (thesis §3.4.3.5).
-    pub(crate) fn remove_false_joints(&mut self) {
+    /// Makes one run of the two at every joint that has only two (thesis §3.4.3.5), or a knee of
+    /// the joint where their axes meet at an angle.
+    pub(crate) fn remove_false_joints(&mut self, surface: &Surface) {
         let mut at = self.incidences();
         for hub in 0..self.hubs.len() {
             let &[(r, end), (s, other_end)] = at[hub].as_slice() else { continue };
             if self.hubs[hub].kind != HubKind::Joint || r == s {
                 continue;
             }
+            let legs = [self.runs[r].seen_from(end), self.runs[s].seen_from(other_end)];
+            if let Some(place) = knee(&legs).filter(|p| surface.tree.contains(p)) {
+                self.hubs[hub].kind = HubKind::Knee;
+                self.hubs[hub].position = place;
+                continue;
+            }
             // … → hub → …, oriented so that the first run ends and the second begins here.
-            let first = self.runs[r].seen_from(1 - end);
-            let second = self.runs[s].seen_from(other_end);
             let (from, to) = (self.runs[r].hubs[1 - end], self.runs[s].hubs[1 - other_end]);
-            self.runs[r] = Run { hubs: [from, to], stations: [first, second].concat() };
+            let [first, second] = legs;
+            self.runs[r] = Run { hubs: [from, to], stations: [reversed(&first), second].concat() };
             self.runs[s].stations.clear();
             self.runs[s].hubs = [usize::MAX; 2];
             at[hub].clear();
@@ -201,6 +211,32 @@ impl Draft {
         }
         self.runs.retain(|r| r.hubs[0] != usize::MAX);
     }
+}
+
+/// A bend of less than this is smoothed by the points along it: 20°.
+const STRAIGHT_ON: f64 = 0.94;
+
+/// Axes of a knee pass each other by no more than this part of their radius.
+const KNEE_MISSES: f64 = 0.5;
+
+/// A knee lies no farther than this many radii beyond the last sections of its legs.
+const KNEE_REACH: f64 = 4.0;
+
+/// Where the straight axes of two legs, each seen from their common end, meet at an angle.
+fn knee(legs: &[Vec<Station>; 2]) -> Option<Point3<f64>> {
+    let [a, b] = [axis_at_start(&legs[0])?, axis_at_start(&legs[1])?];
+    let cosine = a.direction.dot(&b.direction);
+    if !(-STRAIGHT_ON..STRAIGHT_ON).contains(&cosine) {
+        return None;
+    }
+    let meeting = meeting_point(&[a, b], &nalgebra::center(&legs[0][0].centroid, &legs[1][0].centroid));
+    let fits = |axis: &Axis, leg: &[Station]| {
+        let ahead = (leg[0].centroid - meeting).dot(&axis.direction);
+        axis.distance(&meeting) <= 0.5 * KNEE_MISSES * axis.radius
+            && ahead <= KNEE_REACH * axis.radius
+            && ahead >= -axis.radius
+    };
+    (fits(&a, &legs[0]) && fits(&b, &legs[1])).then_some(meeting)
 }
 
 fn replace(list: &mut [(usize, usize)], old: (usize, usize), new: (usize, usize)) {

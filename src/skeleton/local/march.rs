@@ -118,6 +118,14 @@ impl<'a> March<'a> {
         Tube { fronts, stops: [first, last] }
     }
 
+    /// Whether a whole step can be made from a front, ahead or back.
+    pub(crate) fn goes_on(&mut self, front: &Front) -> bool {
+        self.advance(std::slice::from_ref(front), 1.0).is_ok()
+            || self
+                .reversed(front)
+                .is_some_and(|back| self.advance(std::slice::from_ref(&back), 1.0).is_ok())
+    }
+
     /// The same front, looked at from the other side.
     fn reversed(&self, front: &Front) -> Option<Front> {
         let plane = Plane::new(front.plane.point, -front.plane.normal);

@@ -19,6 +19,7 @@
 //! * The skeletal point is the area centroid of the branch's own contour, not the mean of the nodes
 //!   in the box; it does not depend on how finely one side is meshed.
 
+mod assemble;
 mod axis;
 mod band;
 mod claim;
@@ -31,14 +32,10 @@ mod search;
 mod seed;
 mod simplify;
 
-use nalgebra::Point3;
-
-use self::draft::{Draft, HubKind};
+use self::draft::Draft;
 use self::march::March;
 use super::Marched;
 use super::error::SkeletonError;
-use super::graph::{Branch, PointKind, SkeletalPoint, Skeleton};
-use super::inside::way_inside;
 use super::params::SkeletonParams;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
@@ -61,7 +58,7 @@ pub fn skeleton(
         return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }
     simplify::simplify(&mut draft, surface);
-    let skeleton = assemble(surface, params.step * mean_radius, &draft);
+    let skeleton = assemble::assemble(surface, params.step * mean_radius, &draft);
     Ok(Marched { skeleton, findings: findings(surface, &draft) })
 }
 
@@ -97,50 +94,4 @@ fn findings(surface: &Surface, draft: &Draft) -> Vec<Finding> {
         )
     });
     idle.chain(blobs).collect()
-}
-
-/// Turns hubs and runs into points and branches; keeps segments inside.
-fn assemble(surface: &Surface, step: f64, draft: &Draft) -> Skeleton {
-    let mut skeleton = Skeleton::default();
-    let mut of_hub = vec![u32::MAX; draft.hubs.len()];
-    for (h, runs) in draft.incidences().iter().enumerate() {
-        if runs.is_empty() {
-            continue;
-        }
-        of_hub[h] = skeleton.points.len() as u32;
-        let kind = match draft.hubs[h].kind {
-            HubKind::Joint => PointKind::Junction,
-            HubKind::Interface(_) => PointKind::Interface,
-            HubKind::Tip => PointKind::End,
-        };
-        let radius = runs.iter().map(|&(r, _)| draft.runs[r].radius()).fold(0.0, f64::max);
-        skeleton.points.push(SkeletalPoint { position: draft.hubs[h].position, radius, kind });
-    }
-    for run in &draft.runs {
-        let ends: [Point3<f64>; 2] = run.hubs.map(|h| draft.hubs[h].position);
-        let kinds = run.hubs.map(|h| draft.hubs[h].kind);
-        let samples = sample::samples(surface, run, kinds, ends, step);
-        let mut points = vec![of_hub[run.hubs[0]]];
-        let mut at = ends[0];
-        for next in samples.iter().map(Some).chain([None]) {
-            let to = next.map_or(ends[1], |s| s.position);
-            for position in way_inside(&surface.mesh, &surface.tree, &at, &to) {
-                points.push(skeleton.points.len() as u32);
-                let radius = run.radius();
-                skeleton.points.push(SkeletalPoint { position, radius, kind: PointKind::Branch });
-            }
-            at = to;
-            if let Some(s) = next {
-                points.push(skeleton.points.len() as u32);
-                skeleton.points.push(SkeletalPoint {
-                    position: s.position,
-                    radius: s.radius,
-                    kind: PointKind::Branch,
-                });
-            }
-        }
-        points.push(of_hub[run.hubs[1]]);
-        skeleton.branches.push(Branch { points });
-    }
-    skeleton
 }

@@ -50,7 +50,8 @@ pub(crate) fn samples(
 ) -> Vec<Sample> {
     let Some(trend) = Trend::of(run) else { return Vec::new() };
     let curve = inner_curve(surface, &base_curve(run, &trend, kinds, ends));
-    let mut points = spaced(&curve, step);
+    let least = if run.hubs[0] == run.hubs[1] { 3 } else { 2 };
+    let mut points = spaced(&curve, step, least);
     let last = points.len() - 1;
     let mut radii: Vec<f64> = (0..=last).map(|i| trend.at(i as f64 / last as f64)).collect();
     for _ in 0..ROUNDS {
@@ -76,7 +77,12 @@ pub(crate) fn samples(
 /// The end that is nearer decides.
 fn growth_at(kinds: [HubKind; 2], part: f64) -> Growth {
     let kind = kinds[usize::from(part > 0.5)];
-    if kind == HubKind::Joint { AT_JOINT } else { AT_END }
+    if is_bend(kind) { AT_JOINT } else { AT_END }
+}
+
+/// Whether sections next to the hub hold parts of other legs.
+fn is_bend(kind: HubKind) -> bool {
+    matches!(kind, HubKind::Joint | HubKind::Knee)
 }
 
 impl Growth {
@@ -129,7 +135,7 @@ fn base_curve(
     let n = run.stations.len();
     let part = |i: usize| i as f64 / (n - 1).max(1) as f64;
     let swollen = |i: usize| (run.stations[i].radius / trend.at(part(i))).powi(2) > AT_JOINT.follow;
-    let is_joint = kinds.map(|k| k == HubKind::Joint);
+    let is_joint = kinds.map(is_bend);
     let passed = |i: usize, hub: &Point3<f64>, sense: f64| {
         let s = &run.stations[i];
         sense * (s.centroid - hub).dot(&s.direction) < 0.5 * s.radius
@@ -173,10 +179,11 @@ fn kept_inside(surface: &Surface, point: Point3<f64>, on_curve: Point3<f64>) -> 
     middle_of_wall(&surface.mesh, &surface.tree, &point).unwrap_or(point)
 }
 
-/// Points along a polyline at equal distances near `step`; both ends included.
-fn spaced(curve: &[Point3<f64>], step: f64) -> Vec<Point3<f64>> {
+/// Points along a polyline at equal distances near `step`, in `least` pieces at least; both ends
+/// included.
+fn spaced(curve: &[Point3<f64>], step: f64, least: usize) -> Vec<Point3<f64>> {
     let total: f64 = curve.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    let count = ((total / step).round() as usize).max(1);
+    let count = ((total / step).round() as usize).max(least);
     (0..=count).map(|k| curve_point(curve, k, count)).collect()
 }
 

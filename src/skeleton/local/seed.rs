@@ -77,8 +77,8 @@ const TURNS: usize = 4;
 const REACH_OVER_BEST: f64 = 1.5;
 
 impl March<'_> {
-    /// The section across the rod at a place, or `None` where no closed section is found.
-    pub(crate) fn section_at(&self, place: &Place) -> Option<Front> {
+    /// The section across the rod at a place, or `None` where no section closes within `limit` mm.
+    pub(crate) fn section_at(&self, place: &Place, limit: f64) -> Option<Front> {
         let normal = Unit::try_new(self.surface.mesh.doubled_area_vector(place.face), 0.0)?;
         let (u, v) = tangents(&self.surface.mesh, place.face, &normal);
         let mut best: Option<Front> = None;
@@ -87,24 +87,18 @@ impl March<'_> {
             let direction = Unit::new_normalize(u * angle.cos() + v * angle.sin());
             let limit = best
                 .as_ref()
-                .map_or(f64::INFINITY, |b| 2.0 * REACH_OVER_BEST * b.extent.reach);
-            let Some(front) = self.turned_across(place, direction, limit) else { continue };
+                .map_or(limit, |b| limit.min(2.0 * REACH_OVER_BEST * b.extent.reach));
+            let Some(front) = self.section_through(place, direction, limit) else { continue };
             if best.as_ref().is_none_or(|b| front.extent.area < b.extent.area) {
                 best = Some(front);
             }
         }
-        best
+        best.map(|front| self.turned_across(place, front, limit))
     }
 
-    fn turned_across(
-        &self,
-        place: &Place,
-        direction: Unit<Vector3<f64>>,
-        limit: f64,
-    ) -> Option<Front> {
-        let mut front = self.section_through(place, direction, limit)?;
+    fn turned_across(&self, place: &Place, mut front: Front, limit: f64) -> Front {
         for _ in 0..TURNS {
-            let axis = axis_of(&self.surface.mesh, &front.contour)?;
+            let Some(axis) = axis_of(&self.surface.mesh, &front.contour) else { break };
             let axis = if axis.dot(&front.plane.normal) < 0.0 { -axis } else { axis };
             let cosine = axis.dot(&front.plane.normal);
             let Some(turned) = self.section_through(place, axis, limit) else { break };
@@ -113,7 +107,7 @@ impl March<'_> {
                 break;
             }
         }
-        Some(front)
+        front
     }
 
     fn section_through(

@@ -23,7 +23,7 @@ const STANDS_OUT: f64 = 1.5;
 /// Simplifies until nothing changes; every change removes a run.
 pub(crate) fn simplify(draft: &mut Draft, surface: &Surface) {
     loop {
-        draft.remove_false_joints();
+        draft.remove_false_joints(surface);
         place_joints(draft, surface);
         let changed = prune_tips(draft)
             || merge_joints(draft)
