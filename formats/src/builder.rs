@@ -6,10 +6,17 @@ use crate::error::ReadError;
 use crate::raw_mesh::RawMesh;
 
 /// Most corners of one polygon.
+pub(crate) const MOST_CORNERS: u64 = 60_000;
+
+/// Most squared corners of all polygons of more than [`SMALL_POLYGON`] corners.
 ///
-/// Faces of CAD parts have some thousands. Cutting a polygon into triangles takes time that can
-/// grow with the square of its corners; the limit keeps a made-up file from taking hours.
-pub(crate) const MOST_CORNERS: u64 = 100_000;
+/// Cutting a polygon into triangles takes up to 6 ns for each pair of its corners, if it was made
+/// for that; the limit keeps a file from taking more than half a minute. Faces of CAD parts have
+/// some thousand corners at most.
+const MOST_SQUARED_CORNERS: u64 = 4_000_000_000;
+
+/// Polygons of so few corners take a time in proportion to their size in the file.
+const SMALL_POLYGON: usize = 64;
 
 /// Most points, and most corners of all faces together: they are counted in 32 bits.
 const MOST_INDICES: usize = u32::MAX as usize;
@@ -26,12 +33,13 @@ pub(crate) struct Builder<'a> {
     path: &'a Path,
     /// Millimetres in one unit of the file.
     factor: f64,
+    squared_corners: u64,
 }
 
 impl<'a> Builder<'a> {
     /// An empty mesh, for a file whose unit is `factor` millimetres.
     pub(crate) fn new(path: &'a Path, factor: f64) -> Self {
-        Self { mesh: RawMesh::default(), path, factor }
+        Self { mesh: RawMesh::default(), path, factor, squared_corners: 0 }
     }
 
     /// Adds a point, in the unit of the file.
@@ -70,6 +78,14 @@ impl<'a> Builder<'a> {
     /// Ends the face that is being read.
     #[inline]
     pub(crate) fn close_face(&mut self) -> Result<(), ReadError> {
+        let open = self.open_corners();
+        if open > SMALL_POLYGON {
+            self.check_corner_count(open as u64)?;
+            self.squared_corners += (open * open) as u64;
+            if self.squared_corners > MOST_SQUARED_CORNERS {
+                return Err(ReadError::LargeFaces { path: self.path.to_owned() });
+            }
+        }
         let corners = self.mesh.faces.corners.len();
         if corners > MOST_INDICES {
             return Err(self.too_many("corners of faces", MOST_INDICES as u64));

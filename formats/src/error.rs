@@ -205,6 +205,17 @@ pub enum ReadError {
         range: String,
     },
 
+    /// The faces have so many corners that cutting them into triangles could take very long.
+    #[error(
+        "cannot read {}: its faces have too many corners; \
+         cut them into triangles before exporting the mesh",
+        path.display()
+    )]
+    LargeFaces {
+        /// The file.
+        path: PathBuf,
+    },
+
     /// The file uses something this reader does not read.
     #[error("cannot read {}: it uses {feature}, which is not read; {advice}", path.display())]
     Unsupported {

@@ -80,3 +80,6 @@ fn malformed(
         found: found.into(),
     }
 }
+
+#[cfg(test)]
+mod tests;

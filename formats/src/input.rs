@@ -198,6 +198,17 @@ impl<'a> Input<'a> {
         Ok(if carriage_return_and_next.get(at + 1) == Some(&b'\n') { 2 } else { 1 })
     }
 
+    #[cold]
+    fn read_exact_across_blocks(&mut self, mut target: &mut [u8]) -> io::Result<()> {
+        while !target.is_empty() {
+            match self.read(target)? {
+                0 => return Err(io::ErrorKind::UnexpectedEof.into()),
+                count => target = &mut target[count..],
+            }
+        }
+        Ok(())
+    }
+
     /// Reads once more behind the unread part, which may move within the block.
     fn read_more(&mut self) -> io::Result<usize> {
         if self.unread.start > 0 && self.unread.end == self.block.len() {
@@ -230,6 +241,18 @@ impl Read for Input<'_> {
         target[..count].copy_from_slice(&available[..count]);
         self.consume(count);
         Ok(count)
+    }
+
+    /// Reads a number or two as quickly as from a slice; the crates above read nothing larger.
+    #[inline]
+    fn read_exact(&mut self, target: &mut [u8]) -> io::Result<()> {
+        let end = self.unread.start + target.len();
+        if end <= self.unread.end {
+            target.copy_from_slice(&self.block[self.unread.start..end]);
+            self.unread.start = end;
+            return Ok(());
+        }
+        self.read_exact_across_blocks(target)
     }
 }
 

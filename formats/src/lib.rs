@@ -162,3 +162,36 @@ fn missing_or_unknown(path: &Path) -> ReadError {
         _ => ReadError::UnknownExtension { path: path.to_owned() },
     }
 }
+
+/// What the tests of the readers share.
+#[cfg(test)]
+mod testing {
+    use super::*;
+
+    /// The mesh in `bytes`, its invariants checked.
+    pub(crate) fn mesh(bytes: impl AsRef<[u8]>, format: Format) -> RawMesh {
+        let mesh = read_bytes(bytes.as_ref(), format, &ReadOptions::default());
+        let mesh = mesh.unwrap_or_else(|error| panic!("{error}"));
+        mesh.check();
+        mesh
+    }
+
+    /// The message of the error that `bytes` lead to, without the file name.
+    pub(crate) fn message(bytes: impl AsRef<[u8]>, format: Format) -> String {
+        match read_bytes(bytes.as_ref(), format, &ReadOptions::default()) {
+            Ok(mesh) => panic!("no error, but {mesh:?}"),
+            Err(error) => {
+                let start = format!("cannot read memory.{}: ", format.extension());
+                error.to_string().replacen(&start, "", 1)
+            }
+        }
+    }
+
+    /// The names of each face.
+    pub(crate) fn names_of_faces(mesh: &RawMesh) -> Vec<Vec<&str>> {
+        let carriers = &mesh.carriers;
+        let name = |&name: &u32| carriers.names[name as usize].as_str();
+        let names = |&set: &u32| carriers.name_sets[set as usize].iter().map(name).collect();
+        carriers.face_names.iter().map(names).collect()
+    }
+}

@@ -156,7 +156,6 @@ impl<'a> Reader<'a> {
         if corners < 3 {
             return Err(line.malformed("a face of at least three corners", line.text));
         }
-        self.builder.check_corner_count(corners as u64)?;
         let set = match self.name_set {
             Some(set) => set,
             None => self.make_name_set()?,
@@ -282,5 +281,136 @@ fn read_point_rest(line: &Line<'_>, mut fields: Fields<'_>) -> Result<PointRest,
         1 => Ok(PointRest::Weight(a)),
         2 => Err(line.malformed(expected, line.text)),
         _ => Ok(PointRest::Colour([a as f32, b as f32, c as f32])),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Format;
+    use crate::testing::{mesh, message, names_of_faces};
+
+    const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+    #[test]
+    fn corners_count_from_one_or_back_from_the_last_point() {
+        let plain = mesh(format!("{SQUARE}f 1 2 3 4\n"), Format::Obj);
+        assert_eq!(plain.faces.corners, [0, 1, 2, 3]);
+        for face in ["f 1/1 2/2 3/3 4/4", "f 1//1 2//2 3//3 4//1", "f -4/1/1 -3/1/1 3 -1 # square"]
+        {
+            assert_eq!(mesh(format!("{SQUARE}vt 0 0\nvn 0 0 1\n{face}"), Format::Obj), plain);
+        }
+    }
+
+    #[test]
+    fn points_may_come_after_the_faces_that_use_them() {
+        assert_eq!(mesh(format!("f 1 2 3\n{SQUARE}"), Format::Obj).faces.corners, [0, 1, 2]);
+        let message = message(format!("f 1 2 3\nf 1 9 3\nf 7 1 2\n{SQUARE}"), Format::Obj);
+        assert_eq!(message, "line 2: a face names point 9, but points are numbered from 1 to 4");
+    }
+
+    #[test]
+    fn object_group_and_material_hold_together() {
+        let text = format!(
+            "mtllib none.mtl\n{SQUARE}f 1 2 3\no bracket\nf 1 2 3\ng non_design\nusemtl red\nf 1 2 3\n\
+             f 2 3 4\no arm\nf 1 2 3\ng\nusemtl grey steel\nf 1 2 3\ng left pad\nf 1 2 3\n"
+        );
+        let mesh = mesh(text, Format::Obj);
+        let expected: [&[&str]; 7] = [
+            &[],
+            &["bracket"],
+            &["bracket", "non_design", "red"],
+            &["bracket", "non_design", "red"],
+            &["arm", "non_design", "red"],
+            &["arm", "grey steel"],
+            &["arm", "left pad", "left", "pad", "grey steel"],
+        ];
+        assert_eq!(names_of_faces(&mesh), expected);
+    }
+
+    #[test]
+    fn names_are_carried_as_they_are() {
+        let name = "<img src=x onerror=alert(1)>";
+        let bytes =
+            [b"v 0 0 0\nv 1 0 0\nv 0 1 0\no Tr\xe4ger\ng ", name.as_bytes(), b"\nf 1 2 3\n"];
+        let mesh = mesh(bytes.concat(), Format::Obj);
+        assert_eq!(mesh.carriers.names[..2], ["Tr\u{fffd}ger", name]);
+    }
+
+    #[test]
+    fn points_have_colours_of_0_to_1_or_of_0_to_255() {
+        let faces = "f 1 2 3\n";
+        let text = "v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0 1\nv 0 1 0\n";
+        let colours = mesh(format!("{text}{faces}"), Format::Obj).carriers.vertex_colour;
+        assert_eq!(colours, [[255, 0, 0], [0, 128, 0], [255, 255, 255]]);
+        let text = "v 0 0 0 255 0 0\nv 1 0 0 0 128 0\nv 0 1 0 0 0 1\n";
+        let colours = mesh(format!("{text}{faces}"), Format::Obj).carriers.vertex_colour;
+        assert_eq!(colours, [[255, 0, 0], [0, 128, 0], [0, 0, 1]]);
+    }
+
+    #[test]
+    fn a_weight_divides_the_coordinates() {
+        let mesh = mesh("v 2 4 6 2\nv 1 0 0 1.0\nv 0 1 0\nf 1 2 3\n", Format::Obj);
+        assert_eq!(mesh.positions[0], [1.0, 2.0, 3.0]);
+        assert!(message("v 2 4 6 0\n", Format::Obj).contains("a weight other than 0"));
+        assert!(message("v 2 4 6 1 2\n", Format::Obj).contains("a colour `r g b`"));
+    }
+
+    #[test]
+    fn a_line_may_go_on_after_a_backslash() {
+        let text = "v 0 \\\n0 0\\\r\n\nv 1 0 0\nv 0 1 0\n# \\\nf 1 \\\n2 \\\n3\ng a\\";
+        assert_eq!(mesh(text, Format::Obj).faces.corners, [0, 1, 2]);
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 \\\n4\n";
+        assert!(message(text, Format::Obj).starts_with("line 4: a face names point 4"));
+    }
+
+    #[test]
+    fn other_statements_are_passed_over() {
+        let text =
+            format!("{SQUARE}vp 1 2\ns off\np 1\nl 1 2\ncurv 0 1 1 2\nf 1 2 3\ncall other.obj\n");
+        assert_eq!(mesh(text, Format::Obj).faces.len(), 1);
+    }
+
+    #[test]
+    fn the_same_mesh_comes_out_of_tobj() {
+        let text = format!(
+            "{SQUARE}v 0.5 0.5 1e-1\ng a\nf 1 2 5\nf 2 3 5\nf -3 4 -1\nf 4 1 5\nf 4 3 2 1\n"
+        );
+        let options = tobj::LoadOptions::default();
+        let missing = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
+        let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, missing).unwrap();
+        let theirs = &models[0].mesh;
+        let point = |index: &u32| &theirs.positions[3 * *index as usize..][..3];
+        let theirs: Vec<_> = theirs.indices.iter().flat_map(point).copied().collect();
+        let ours = mesh(&text, Format::Obj);
+        let point = |index: &u32| ours.positions[*index as usize];
+        assert_eq!(ours.faces.corners.iter().flat_map(point).collect::<Vec<_>>(), theirs);
+    }
+
+    #[test]
+    fn faults_are_told_with_their_line() {
+        for (text, expected) in [
+            ("v 0 0\n", "line 1: expected v x y z, found the end of the line"),
+            ("v 0 0 nan\n", "line 1: `nan` is not a finite number"),
+            ("v 1,5 0 0\n", "line 1: `1,5` has a comma"),
+            (
+                "v 0 0 0\nf 1 1\n",
+                "line 2: expected a face of at least three corners, found `f 1 1`",
+            ),
+            ("v 0 0 0\nf 1 1 0\n", "line 2: a face names point 0, but points are numbered from 1"),
+            ("v 0 0 0\nf 1 1 -2\n", "line 2: a face names point -2, but only 1 points come before"),
+            ("v 0 0 0\nf 1 1 4294967296\n", "line 2: a face names point 4294967296, but"),
+            ("v 0 0 0\nf 1 1 99999999999999999999999\n", "line 2: a face names point 9999999"),
+            (
+                "v 0 0 0\nf 1 1 1.5\n",
+                "line 2: expected a corner: v, v/vt, v//vn or v/vt/vn, found `1.5`",
+            ),
+            ("v 0 0 0\nf 1 1 /1\n", "line 2: expected a corner"),
+            ("f 1 2 3\n", "line 1: a face names point 3, but the file has no points"),
+            ("hello\n", "it has 0 points but no faces"),
+        ] {
+            let message = message(text, Format::Obj);
+            assert!(message.starts_with(expected), "{text:?}: {message}");
+        }
     }
 }

@@ -291,3 +291,87 @@ fn read_face_colour(
         _ => Ok(Some([colour[0], colour[1], colour[2]])),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::Format;
+    use crate::testing::{mesh, message};
+
+    const SQUARE: &str = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+    #[test]
+    fn counts_may_stand_on_the_first_line_and_comments_anywhere() {
+        let plain = mesh(format!("OFF\n4 1 0\n{SQUARE}4 0 1 2 3\n"), Format::Off);
+        assert_eq!(plain.positions.len(), 4);
+        assert_eq!(plain.faces.corners_of(0), [0, 1, 2, 3]);
+        for text in [
+            format!("OFF 4 1 0\n{SQUARE}4 0 1 2 3"),
+            format!(
+                "# by hand\n\nOFF # here\n4 1 # no edges\n\n{SQUARE}\n# face\n 4  0 1\t2 3 # end\n"
+            ),
+            format!("4 1 0\n{SQUARE}4 0 1 2 3\n"),
+            format!("off\r\n4 1 0\r\n{}4 0 1 2 3\r\n", SQUARE.replace('\n', "\r\n")),
+            format!("OFF\r4 1 0\r{}4 0 1 2 3\r", SQUARE.replace('\n', "\r")),
+            format!("\u{feff}OFF\n4 1 0\n{SQUARE}4 0 1 2 3\n"),
+        ] {
+            assert_eq!(mesh(&text, Format::Off), plain, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn faces_have_colours_of_whole_numbers_or_of_fractions() {
+        let text = format!(
+            "OFF\n4 5 0\n{SQUARE}3 0 1 2 255 0 0\n3 0 1 2\n3 0 1 2 7\n3 0 1 2 1 2 3 255\n3 0 1 2 0.0 1e2 0\n"
+        );
+        let colours = [Some([255, 0, 0]), None, None, Some([1, 2, 3]), Some([0, 100, 0])];
+        assert_eq!(mesh(text, Format::Off).carriers.face_colour, colours);
+        let text = format!("COFF\n4 2 0\n{SQUARE}3 0 1 2 1 0 0\n3 0 1 2 0.2 0.4 0.6 1.0\n");
+        let colours = [Some([255, 0, 0]), Some([51, 102, 153])];
+        assert_eq!(mesh(text, Format::Off).carriers.face_colour, colours);
+    }
+
+    #[test]
+    fn points_have_colours_and_normals_by_the_first_word() {
+        let face = "3 0 1 2\n";
+        let read = |text: String| mesh(text + face, Format::Off).carriers.vertex_colour;
+        let expected = [[255, 0, 0], [0, 128, 0], [255, 255, 255]];
+        let coff = "COFF 3 1 0\n0 0 0 255 0 0 255\n1 0 0 0 128 0 255\n0 1 0\n";
+        let ncoff = "NCOFF 3 1 0\n0 0 0 0 0 1 255 0 0\n1 0 0 0 0 1 0 128 0\n0 1 0 0 0 nan\n";
+        let stcnoff =
+            "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 .5 .5\n1 0 0 0 0 1 0 128 0 1 1\n0 1 0 0 0 1 0 0\n";
+        for text in [coff, ncoff, stcnoff] {
+            assert_eq!(read(text.to_owned()), expected, "{text}");
+        }
+        assert!(read("NOFF 3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n".to_owned()).is_empty());
+    }
+
+    #[test]
+    fn points_and_lines_among_the_faces_fall_out() {
+        let text = format!("OFF\n4 4 0\n{SQUARE}2 0 1 255 0 0\n3 0 1 2 0 255 0\n1 3\n0\n");
+        let mesh = mesh(text, Format::Off);
+        assert_eq!(mesh.faces.len(), 1);
+        assert_eq!(mesh.carriers.face_colour, [Some([0, 255, 0])]);
+    }
+
+    #[test]
+    fn other_kinds_of_off_are_refused_by_name() {
+        assert!(message("OFF BINARY\n\0\0", Format::Off).contains("binary OFF"));
+        for word in ["4OFF", "nOFF", "C4OFF", "CnOFF"] {
+            let message = message(format!("{word}\n4\n1 1 1\n"), Format::Off);
+            assert!(message.contains("other than three coordinates"), "{word}: {message}");
+        }
+        assert_eq!(
+            message("POFF\n", Format::Off),
+            "line 1: expected OFF, COFF, NOFF or the like, found `POFF`"
+        );
+    }
+
+    #[test]
+    fn more_than_the_header_announces_is_an_error() {
+        let text = format!("OFF\n4 1 0\n{SQUARE}3 0 1 2\n3 0 2 3\n");
+        assert_eq!(
+            message(text, Format::Off),
+            "line 8: expected the end of the file after 4 points and 1 faces, found `3 0 2 3`"
+        );
+    }
+}

@@ -182,7 +182,6 @@ impl<'a> Reader<'a> {
                 found: format!("one of {corners}"),
             });
         }
-        self.builder.check_corner_count(corners as u64)?;
         self.builder.close_face()?;
         let carriers = &mut self.builder.mesh.carriers;
         if self.has.flags {
@@ -237,3 +236,6 @@ fn label_names(property: &str, values: &[i64]) -> NameTable {
     }
     table
 }
+
+#[cfg(test)]
+mod tests;

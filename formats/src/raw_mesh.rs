@@ -26,6 +26,34 @@ pub struct Polygons {
     pub starts: Vec<u32>,
 }
 
+impl RawMesh {
+    /// Asserts all invariants; for tests, here and of what is made from the mesh.
+    ///
+    /// # Panics
+    /// If one is broken.
+    pub fn check(&self) {
+        let (points, faces) = (self.positions.len(), self.faces.len());
+        assert!(self.positions.iter().flatten().all(|coordinate| coordinate.is_finite()));
+        let Polygons { corners, starts } = &self.faces;
+        assert_eq!(starts.first(), Some(&0));
+        assert_eq!(starts.last().map(|&end| end as usize), Some(corners.len()));
+        assert!(starts.windows(2).all(|pair| pair[1] >= pair[0] + 3));
+        assert!(corners.iter().all(|&corner| (corner as usize) < points));
+
+        let carriers = &self.carriers;
+        let belongs = |length: usize, to: usize| assert!(length == 0 || length == to);
+        belongs(carriers.face_property.len(), faces);
+        belongs(carriers.face_selected.len(), faces);
+        belongs(carriers.face_quality.len(), faces);
+        belongs(carriers.face_colour.len(), faces);
+        belongs(carriers.vertex_colour.len(), points);
+        belongs(carriers.face_names.len(), faces);
+        let (names, sets) = (&carriers.names, &carriers.name_sets);
+        assert!(carriers.face_names.iter().all(|&set| (set as usize) < sets.len()));
+        assert!(sets.iter().flatten().all(|&name| (name as usize) < names.len()));
+    }
+}
+
 impl Default for Polygons {
     fn default() -> Self {
         Self { corners: Vec::new(), starts: vec![0] }
@@ -43,13 +71,16 @@ impl Polygons {
         self.len() == 0
     }
 
-    /// Appends one polygon.
+    /// Appends one polygon; all together must have fewer than 2³² corners.
     pub fn push(&mut self, corners: impl IntoIterator<Item = u32>) {
         self.corners.extend(corners);
         self.starts.push(self.corners.len() as u32);
     }
 
     /// Corners of polygon `face`.
+    ///
+    /// # Panics
+    /// If there is no such polygon.
     pub fn corners_of(&self, face: usize) -> &[u32] {
         &self.corners[self.starts[face] as usize..self.starts[face + 1] as usize]
     }
@@ -71,10 +102,10 @@ pub struct LabelCarriers {
     pub face_selected: Vec<bool>,
     /// PLY face `quality`.
     pub face_quality: Vec<f32>,
-    /// Face colour, 8 bits a channel (PLY, COFF faces, binary STL attribute bytes); `None` where
-    /// a face has none.
+    /// Face colour, 8 bits a channel (PLY, COFF faces, binary STL attribute bytes, materials of OBJ
+    /// and glTF); `None` where a face has none.
     pub face_colour: Vec<Option<[u8; 3]>>,
-    /// Colour of each point, 8 bits a channel.
+    /// Colour of each point, 8 bits a channel; white where only others have one.
     pub vertex_colour: Vec<[u8; 3]>,
     /// Distinct names met in the file: groups, objects, materials, solids, nodes, meshes.
     pub names: Vec<String>,

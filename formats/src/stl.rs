@@ -64,3 +64,6 @@ pub(crate) fn looks_like_ascii(text: &[u8]) -> bool {
     let text = text[..text.len().min(HEAD)].to_ascii_lowercase();
     ["facet", "endsolid"].iter().any(|word| memchr::memmem::find(&text, word.as_bytes()).is_some())
 }
+
+#[cfg(test)]
+mod tests;

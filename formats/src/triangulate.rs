@@ -86,7 +86,7 @@ type Point3 = [f64; 3];
 /// Cuts one polygon after the other, with memory that is used again.
 #[derive(Default)]
 struct Cutter {
-    /// The polygon without repeated corners.
+    /// The polygon, [simplified](simplify).
     ring: Vec<u32>,
     /// Its points seen against its normal: counter-clockwise.
     flat: Vec<Point2>,
@@ -103,12 +103,7 @@ impl Cutter {
         polygon: &[u32],
         positions: &[Point3],
     ) -> impl Iterator<Item = [u32; 3]> + '_ {
-        self.ring.clear();
-        self.ring.extend_from_slice(polygon);
-        self.ring.dedup();
-        while self.ring.len() > 1 && self.ring.first() == self.ring.last() {
-            self.ring.pop();
-        }
+        simplify(polygon, &mut self.ring);
         self.triangles.clear();
         if self.ring.len() == 3 {
             self.triangles.push([0, 1, 2]);
@@ -225,6 +220,29 @@ impl Cutter {
     }
 }
 
+/// The polygon without corners that repeat the one before, and without going out and back.
+fn simplify(polygon: &[u32], ring: &mut Vec<u32>) {
+    ring.clear();
+    for &corner in polygon {
+        match ring[..] {
+            [.., last] if last == corner => {}
+            [.., before, _] if before == corner => drop(ring.pop()),
+            _ => ring.push(corner),
+        }
+    }
+    // The same where the end meets the beginning.
+    let mut start = 0;
+    loop {
+        match ring[start..] {
+            [first, .., last] if first == last => ring.truncate(ring.len() - 1),
+            [first, .., before, _] if first == before => ring.truncate(ring.len() - 2),
+            [_, second, .., last] if second == last => start += 1,
+            _ => break,
+        }
+    }
+    ring.drain(..start);
+}
+
 fn edges([a, b, c]: [usize; 3]) -> [[usize; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
@@ -328,3 +346,6 @@ fn is_fan(flat: &[Point2]) -> bool {
     flat[2..].iter().all(|&corner| twice_area(first, second, corner) > least)
         && flat[1..].windows(2).all(|pair| twice_area(first, pair[0], pair[1]) > least)
 }
+
+#[cfg(test)]
+mod tests;

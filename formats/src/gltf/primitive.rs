@@ -257,7 +257,7 @@ impl<'a> Emitter<'a> {
             }
             count += 1;
         }
-        if mode == Mode::Triangles && count % 3 != 0 {
+        if mode == Mode::Triangles && !count.is_multiple_of(3) {
             let expected = "three corners for each triangle";
             return Err(malformed(self.path, part, expected, format!("{count} corners")));
         }

@@ -108,3 +108,61 @@ pub(super) fn spread(
     }
     spread
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{RawMesh, ReadOptions, read};
+
+    const PART: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\nf 1 3 2\n\
+                        usemtl plain\nf 1 2 3\nusemtl red\nf 1 2 3\n";
+
+    fn read_with_library(statement: &str, library: &[u8]) -> RawMesh {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("my part.mtl"), library).unwrap();
+        let path = folder.path().join("part.obj");
+        std::fs::write(&path, format!("{statement}\n{PART}")).unwrap();
+        let mesh = read(&path, &ReadOptions::default()).unwrap();
+        mesh.check();
+        mesh
+    }
+
+    #[test]
+    fn faces_get_the_diffuse_colour_of_their_material() {
+        let library =
+            b"# MeshLab\nnewmtl red\nKa 0 0 0\nKd 1.0 0.0 0.2\nmap_Kd a.png\n\nnewmtl plain\n";
+        let red = Some([255, 0, 51]);
+        for statement in
+            ["mtllib my part.mtl", "mtllib .\\my part.mtl", "mtllib none.mtl\nmtllib my part.mtl"]
+        {
+            let mesh = read_with_library(statement, library);
+            assert_eq!(mesh.carriers.face_colour, [None, red, red, None, red], "{statement}");
+            assert_eq!(mesh.carriers.names, ["red", "plain"]);
+        }
+    }
+
+    #[test]
+    fn a_library_that_is_malformed_is_no_error() {
+        for library in [
+            &b"newmtl red\nKd 1\n"[..],
+            b"newmtl red\nKd 1 nan 0\n",
+            b"Kd 1 0 0\n",
+            b"newmtl\nKd 1 0 0\nnewmtl \xff\nKd 1 0 0\nnewmtl 1\nKd 1 0 0\n",
+            b"newmtl red\nKd spectral a.rfl\n",
+            b"\0\0\0",
+            b"",
+        ] {
+            let mesh = read_with_library("mtllib my part.mtl", library);
+            assert!(mesh.carriers.face_colour.is_empty(), "{library:?}");
+            assert_eq!(mesh.carriers.names, ["red", "plain"]);
+        }
+    }
+
+    #[test]
+    fn a_library_outside_of_the_folder_is_not_read() {
+        let outside = tempfile::tempdir().unwrap();
+        let library = outside.path().join("out.mtl");
+        std::fs::write(&library, "newmtl red\nKd 1 0 0\n").unwrap();
+        let statement = format!("mtllib {}", library.display());
+        assert!(read_with_library(&statement, b"").carriers.face_colour.is_empty());
+    }
+}

@@ -191,7 +191,8 @@ fn read_lines(input: &mut Input<'_>, ends_in_cr: bool) -> Result<Vec<HeaderLine>
         match line.fields().word() {
             None | Some(b"comment" | b"obj_info") => continue,
             Some(b"end_header") => return Ok(lines),
-            _ => {}
+            Some(b"ply" | b"format" | b"element" | b"property") => {}
+            _ => return Err(line.malformed(HEADER_LINES, line.text)),
         }
         length += line.text.len();
         if length > LONGEST_HEADER {

@@ -57,6 +57,44 @@ pub(super) fn read(input: &mut Input<'_>, builder: Builder<'_>) -> Result<RawMes
     Ok(mesh)
 }
 
+/// The words that a statement begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Keyword {
+    Solid,
+    Facet,
+    Outer,
+    Vertex,
+    EndLoop,
+    EndFacet,
+    EndSolid,
+}
+
+impl Keyword {
+    /// The keyword that a word is, or that it makes with the next: some programs write `end loop`.
+    #[inline]
+    fn of(word: &[u8], fields: &mut Fields<'_>) -> Option<Self> {
+        match word {
+            b"vertex" => Some(Self::Vertex),
+            b"outer" => Some(Self::Outer),
+            b"facet" => Some(Self::Facet),
+            b"endloop" => Some(Self::EndLoop),
+            b"endfacet" => Some(Self::EndFacet),
+            b"solid" => Some(Self::Solid),
+            b"endsolid" => Some(Self::EndSolid),
+            b"end" => match fields.word()?.to_ascii_lowercase().as_slice() {
+                b"loop" => Some(Self::EndLoop),
+                b"facet" => Some(Self::EndFacet),
+                b"solid" => Some(Self::EndSolid),
+                _ => None,
+            },
+            _ if word.len() <= 8 && word.iter().any(u8::is_ascii_uppercase) => {
+                Self::of(&word.to_ascii_lowercase(), fields)
+            }
+            _ => None,
+        }
+    }
+}
+
 struct Reader<'a> {
     builder: Builder<'a>,
     names: NameTable,
@@ -83,30 +121,29 @@ impl Reader<'_> {
         word: &[u8],
         fields: &mut Fields<'_>,
     ) -> Result<(), ReadError> {
-        let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
-        self.state = match self.state {
-            State::Loop if is(b"vertex") => return self.vertex(line, fields),
-            State::Loop if is(b"endloop") => State::LoopEnd,
-            State::LoopEnd if is(b"endfacet") => {
+        self.state = match (self.state, Keyword::of(word, fields)) {
+            (State::Loop, Some(Keyword::Vertex)) => return self.vertex(line, fields),
+            (State::Loop, Some(Keyword::EndLoop)) => State::LoopEnd,
+            (State::LoopEnd, Some(Keyword::EndFacet)) => {
                 self.end_facet(line)?;
                 State::Solid
             }
-            State::Solid if is(b"facet") => {
+            (State::Solid, Some(Keyword::Facet)) => {
                 skip_normal(line, fields)?;
                 State::Facet
             }
-            State::Facet if is(b"outer") => match fields.word() {
+            (State::Facet, Some(Keyword::Outer)) => match fields.word() {
                 Some(word) if word.eq_ignore_ascii_case(b"loop") => State::Loop,
                 word => return Err(line.malformed("`loop`", word.unwrap_or_default())),
             },
-            State::Outside if is(b"solid") => {
+            (State::Outside, Some(Keyword::Solid)) => {
                 self.name.clear();
                 self.name.extend_from_slice(fields.rest());
                 self.name_set = None;
                 *fields = Fields::of(b"");
                 State::Solid
             }
-            State::Solid if is(b"endsolid") => {
+            (State::Solid, Some(Keyword::EndSolid)) => {
                 // The name may follow once more.
                 *fields = Fields::of(b"");
                 State::Outside
@@ -130,7 +167,6 @@ impl Reader<'_> {
             let found = format!("{corners} of them before {}", String::from_utf8_lossy(line.text));
             return Err(line.malformed("three vertices in a facet", found.as_bytes()));
         }
-        self.builder.check_corner_count(corners as u64)?;
         self.builder.close_face()?;
         let set = match self.name_set {
             Some(set) => set,
