@@ -15,6 +15,7 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::half_edge::HalfEdgeMesh;
 use super::id::{FaceId, HalfEdgeId};
+use super::triangle_tree::TriangleTree;
 
 /// An oriented plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +57,23 @@ pub struct Contour {
 }
 
 impl Contour {
+    /// Whether the contour winds round the plane's point.
+    pub fn encloses(&self, plane: &Plane) -> bool {
+        let (u, v) = plane.axes();
+        let flat = |p: &Point3<f64>| ((p - plane.point).dot(&u), (p - plane.point).dot(&v));
+        let mut inside = false;
+        let Some(last) = self.points.last() else { return false };
+        let mut a = flat(last);
+        for p in &self.points {
+            let b = flat(p);
+            if (a.1 > 0.0) != (b.1 > 0.0) && a.0 + a.1 / (a.1 - b.1) * (b.0 - a.0) > 0.0 {
+                inside = !inside;
+            }
+            a = b;
+        }
+        inside
+    }
+
     fn clear(&mut self) {
         self.half_edges.clear();
         self.points.clear();
@@ -110,6 +128,34 @@ fn crossing(mesh: &HalfEdgeMesh, h: HalfEdgeId, above: f64, below: f64) -> Point
     let (a, b) = (mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)));
     let t = above / (above - below);
     a + (b - a) * t
+}
+
+/// The contour round a point of the plane: the first one met from there, if it encloses the point
+/// and stays within `reach` of it.
+pub fn contour_round(
+    mesh: &HalfEdgeMesh,
+    tree: &TriangleTree,
+    plane: &Plane,
+    reach: f64,
+) -> Option<Contour> {
+    let (u, v) = plane.axes();
+    // Not along an axis: flat faces of CAD models lie there.
+    let far = plane.point + (u * 0.8 + v * 0.6) * reach;
+    let hit = tree.first_crossing(&plane.point, &far)?;
+    let start = entry(mesh, plane, FaceId(hit.face))?;
+    closed_round(mesh, plane, start, reach)
+}
+
+/// The contour over the crossed side `start`, if it encloses the plane's point within `reach`.
+pub fn closed_round(
+    mesh: &HalfEdgeMesh,
+    plane: &Plane,
+    start: HalfEdgeId,
+    reach: f64,
+) -> Option<Contour> {
+    let mut contour = Contour::default();
+    let fits = follow(mesh, plane, start, &mut contour, |p| (p - plane.point).norm() <= reach);
+    (fits && contour.points.len() >= 3 && contour.encloses(plane)).then_some(contour)
 }
 
 /// Size and place of the region a contour encloses.

@@ -7,7 +7,7 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::axis::weights;
 use super::draft::{HubKind, Run};
-use crate::mesh::contour::{Contour, Extent, Plane, entry, follow};
+use crate::mesh::contour::{Extent, Plane, closed_round, contour_round, entry};
 use crate::mesh::id::HalfEdgeId;
 use crate::mesh::{HalfEdgeMesh, Surface};
 use crate::skeleton::inside::{middle_of_wall, way_inside};
@@ -201,7 +201,10 @@ fn curve_point(curve: &[Point3<f64>], k: usize, count: usize) -> Point3<f64> {
     curve[curve.len() - 1]
 }
 
-/// The section of the branch round a point.
+/// Sections that reach farther than this many times the last one are not the branch's own.
+const REACH: f64 = 4.0;
+
+/// The section of the branch round a point, of design faces only.
 fn section_round(
     surface: &Surface,
     run: &Run,
@@ -215,21 +218,15 @@ fn section_round(
         .min_by(|a, b| {
             (a.centroid - point).norm_squared().total_cmp(&(b.centroid - point).norm_squared())
         })?;
-    let limit = 4.0 * nearest.reach;
-    let mut contour = Contour::default();
-    let mut try_from = |start: HalfEdgeId| {
-        let fits =
-            follow(&surface.mesh, &plane, start, &mut contour, |p| (p - point).norm() <= limit);
-        if !fits || contour.points.len() < 3 || !encloses(&contour, &plane, point) {
-            return None;
-        }
-        if contour.half_edges.iter().any(|h| !surface.labels.is_design(h.face())) { return None; }
-        let extent = Extent::of(&contour, &plane);
-        (extent.area > 0.0).then_some(extent)
-    };
-    approach(&surface.mesh, &plane, nearest.side)
-        .and_then(&mut try_from)
-        .or_else(|| ray_start(surface, &plane, limit).and_then(&mut try_from))
+    let reach = REACH * nearest.reach;
+    let contour = approach(&surface.mesh, &plane, nearest.side)
+        .and_then(|start| closed_round(&surface.mesh, &plane, start, reach))
+        .or_else(|| contour_round(&surface.mesh, &surface.tree, &plane, reach))?;
+    if contour.half_edges.iter().any(|h| !surface.labels.is_design(h.face())) {
+        return None;
+    }
+    let extent = Extent::of(&contour, &plane);
+    (extent.area > 0.0).then_some(extent)
 }
 
 /// From a side near the plane, walks over the surface to a triangle the plane cuts.
@@ -253,28 +250,4 @@ fn approach(mesh: &HalfEdgeMesh, plane: &Plane, from: HalfEdgeId) -> Option<Half
         }
         at = next;
     }
-}
-
-/// A side of the contour met first by a ray in the plane.
-fn ray_start(surface: &Surface, plane: &Plane, limit: f64) -> Option<HalfEdgeId> {
-    let (u, v) = plane.axes();
-    let reach = plane.point + (u * 0.8 + v * 0.6) * limit;
-    let hit = surface.tree.first_crossing(&plane.point, &reach)?;
-    entry(&surface.mesh, plane, crate::mesh::id::FaceId(hit.face))
-}
-
-/// Whether the contour winds round a point of its plane.
-fn encloses(contour: &Contour, plane: &Plane, point: &Point3<f64>) -> bool {
-    let (u, v) = plane.axes();
-    let flat = |p: &Point3<f64>| ((p - point).dot(&u), (p - point).dot(&v));
-    let mut inside = false;
-    let mut a = flat(&contour.points[contour.points.len() - 1]);
-    for p in &contour.points {
-        let b = flat(p);
-        if (a.1 > 0.0) != (b.1 > 0.0) && a.0 + a.1 / (a.1 - b.1) * (b.0 - a.0) > 0.0 {
-            inside = !inside;
-        }
-        a = b;
-    }
-    inside
 }

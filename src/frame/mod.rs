@@ -1,0 +1,103 @@
+//! From the skeleton to straight beams between nodes (thesis §5.2.3).
+//!
+//! ```text
+//!   skeleton  ●━━●━━●━━╮          frame   ○──────────○   ○ node, from a junction or an
+//!                      ◆━●━●━●                        ╲      interface section
+//!                                                      ○  ── beam, one straight piece
+//! ```
+//!
+//! | step | what | module |
+//! |---|---|---|
+//! | 1 | the section at every skeletal point | [`section_at`] |
+//! | 2 | bent branches broken into straight pieces | `straighten` |
+//! | 3 | all nodes moved so that the axes run in the middle of the material | `solve` |
+//! | 4 | nodes closer than a section radius made one | `normalize` |
+//! | 5 | mean and end values of the sections along each beam | [`beam_section`] |
+
+pub mod beam_section;
+pub mod normalize;
+pub mod params;
+pub mod section_at;
+mod solve;
+mod straighten;
+
+pub use beam_section::{BeamAxes, BeamSection, Moments};
+pub use normalize::{Normalized, normalize};
+pub use params::FrameParams;
+pub use section_at::{Section, sections};
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use crate::mesh::id::id_type;
+
+id_type!(
+    /// An end of beams.
+    NodeId
+);
+id_type!(
+    /// A straight piece between two nodes.
+    BeamId
+);
+
+/// What a node came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeKind {
+    /// A junction of the skeleton.
+    Junction,
+    /// An interface section.
+    Interface,
+    /// A free end.
+    End,
+    /// A bend of one branch.
+    Bend,
+}
+
+/// An end of beams.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Place, mm.
+    pub position: Point3<f64>,
+    /// What it came from.
+    pub kind: NodeKind,
+}
+
+/// A straight piece between two nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    /// Its nodes.
+    pub ends: [NodeId; 2],
+    /// The branch of the skeleton it is a part of.
+    pub branch: u32,
+    /// Its axes; y and z are the principal axes of its mean section.
+    pub axes: BeamAxes,
+    /// Length between the nodes, mm.
+    pub length: f64,
+    /// What the sections along it say.
+    pub section: BeamSection,
+}
+
+/// All nodes and beams.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// All nodes.
+    pub nodes: Vec<Node>,
+    /// All beams, in the order of their branches.
+    pub beams: Vec<Beam>,
+}
+
+impl Frame {
+    /// A node.
+    pub fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.index()]
+    }
+
+    /// Positions of the two nodes of a beam, mm.
+    pub fn axis(&self, beam: &Beam) -> [Point3<f64>; 2] {
+        beam.ends.map(|n| self.node(n).position)
+    }
+}
+
+/// Unit vector from one point to another; x where they coincide.
+pub(crate) fn direction(a: &Point3<f64>, b: &Point3<f64>) -> Unit<Vector3<f64>> {
+    Unit::try_new(b - a, 0.0).unwrap_or_else(Vector3::x_axis)
+}

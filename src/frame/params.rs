@@ -1,0 +1,37 @@
+//! What normalization can be told.
+
+use crate::skeleton::params::OutOfRange;
+
+/// Parameters of normalization (thesis §5.2.3).
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameParams {
+    /// Farthest a branch may bend away from one straight beam, in section radii.
+    ///
+    /// Smaller gives more and shorter beams that follow the branch more closely.
+    /// Range: `[0.05, 5]`.  Default: `0.5`.
+    pub max_deviation: f64,
+}
+
+impl Default for FrameParams {
+    fn default() -> Self {
+        Self { max_deviation: 0.5 }
+    }
+}
+
+impl FrameParams {
+    /// Checks every parameter against its range.
+    ///
+    /// # Errors
+    /// The first parameter that is out of its range.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        if (0.05..=5.0).contains(&self.max_deviation) {
+            Ok(())
+        } else {
+            Err(OutOfRange {
+                name: "--max-deviation",
+                range: "[0.05, 5]",
+                value: self.max_deviation,
+            })
+        }
+    }
+}
