@@ -144,21 +144,33 @@ fn look_of_text(text: &[u8]) -> Option<Look> {
         let is_gltf = memchr::memmem::find(text, b"\"asset\"").is_some();
         return if is_gltf { known(Format::Gltf) } else { None };
     }
-    let line = text
+    let mut lines = text
         .split(|&byte| byte == b'\n' || byte == b'\r')
         .map(<[u8]>::trim_ascii)
-        .find(|line| !line.is_empty() && !line.starts_with(b"#"))?;
-    let mut fields = Fields::of(line);
-    let word = fields.word()?;
+        .filter(|line| !line.is_empty() && !line.starts_with(b"#"));
+    let line = lines.next()?;
+    let word = Fields::of(line).word()?;
     match word {
         b"ply" => known(Format::Ply),
-        b"v" if (0..3).all(|_| fields.number().is_ok()) => known(Format::Obj),
-        b"mtllib" => known(Format::Obj),
         _ if word.eq_ignore_ascii_case(b"solid") && stl::looks_like_ascii(text) => {
             Some(Look { name: "ASCII STL", format: Some(Format::Stl) })
         }
         _ if off::is_first_word(word) => known(Format::Off),
+        _ if std::iter::once(line).chain(lines).find_map(tells_obj) == Some(true) => {
+            known(Format::Obj)
+        }
         _ => None,
+    }
+}
+
+/// Whether a line is one that OBJ files have; `None` if it could be, and the next has to tell.
+fn tells_obj(line: &[u8]) -> Option<bool> {
+    let mut fields = Fields::of(line);
+    match fields.word()? {
+        b"v" => Some((0..3).all(|_| fields.number().is_ok())),
+        b"mtllib" => Some(true),
+        b"o" | b"g" | b"s" | b"usemtl" | b"vn" | b"vt" => None,
+        _ => Some(false),
     }
 }
 
@@ -183,6 +195,7 @@ mod tests {
         assert_eq!(look_name(b"\n# made by hand\nNCOFF 3 1 0\n"), Some("OFF"));
         assert_eq!(look_name(b"# Blender\nmtllib a.mtl\n"), Some("OBJ"));
         assert_eq!(look_name(b"v 0 0 0\n"), Some("OBJ"));
+        assert_eq!(look_name(b"o part\ng a b\nv 0 0 0\n"), Some("OBJ"));
         assert_eq!(look_name(b"ply\r\nformat ascii 1.0\r\n"), Some("PLY"));
         assert_eq!(look_name(b"solid a\n facet normal 0 0 1\n"), Some("ASCII STL"));
         assert_eq!(look_name(b"{ \"asset\": {} }"), Some("glTF"));

@@ -68,7 +68,7 @@ fn each(
         match input.next_content()? {
             Some(line) => take(line)?,
             None => {
-                let what = format!("{} {} of {}", element.name, number + 1, element.count());
+                let what = format!("{} {} of {}", element.title(), number + 1, element.count());
                 return Err(input.cut_off(what));
             }
         }

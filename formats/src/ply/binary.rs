@@ -74,7 +74,7 @@ fn read_one<R: PropertyAccess>(
 
 fn fault(input: &Input<'_>, error: &ParseError, element: &Element, number: u64) -> ReadError {
     let (path, place) = (input.path().to_owned(), Place::Byte(input.position()));
-    let what = format!("{} {} of {}", element.name, number + 1, element.count());
+    let what = format!("{} {} of {}", element.title(), number + 1, element.count());
     match error.kind() {
         io::ErrorKind::UnexpectedEof => {
             ReadError::CutOff { path, place, missing: format!("the end of {what}") }

@@ -14,7 +14,7 @@ use ply_rs_bw::ply::{ElementDef, Encoding, PropertyType};
 use super::columns::{ElementKind, Slot, is_integer, property_type, scale_of, size_of};
 use super::record::Skipped;
 use crate::colour::Scale;
-use crate::error::{Place, ReadError, quote};
+use crate::error::{Place, ReadError, excerpt, quote};
 use crate::input::Input;
 
 /// Longest header that is read, bytes, comments not counted. Real ones have about 500.
@@ -41,7 +41,7 @@ pub(super) struct Header {
 pub(super) struct Element {
     pub(super) kind: ElementKind,
     /// Name in the file.
-    pub(super) name: String,
+    name: String,
     pub(super) definition: ElementDef,
     pub(super) place: Place,
 }
@@ -77,6 +77,11 @@ impl Header {
 }
 
 impl Element {
+    /// The name as shown in messages.
+    pub(super) fn title(&self) -> String {
+        excerpt(&self.name, 40)
+    }
+
     pub(super) fn count(&self) -> u64 {
         self.definition.count as u64
     }
@@ -114,7 +119,7 @@ impl Element {
             Some(most) if self.count() > most => Err(ReadError::WrongCount {
                 path: input.path().to_owned(),
                 place: self.place.clone(),
-                what: format!("of element {}", self.name),
+                what: format!("of element {}", self.title()),
                 count: self.count(),
                 room: input.remaining(),
                 holds: format!("at most {most}"),
