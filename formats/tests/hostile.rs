@@ -89,7 +89,7 @@ fn a_pipe_is_not_waited_for() {
 fn a_file_that_may_not_be_read_is_told() {
     use std::os::unix::fs::PermissionsExt;
     let (_folder, path) = file("secret.off", TRIANGLE_OFF);
-    fs::set_permissions(&path, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o000)).unwrap();
     // The superuser may read it all the same.
     if fs::File::open(&path).is_err() {
         assert!(message_of(&path).starts_with("cannot read secret.off: Permission denied"));
@@ -345,7 +345,7 @@ fn corners_out_of_range_are_told_with_their_place() {
 fn latin_1_bytes_do_no_harm() {
     let obj = [b"# f\xfcr M\xfcller\ng Tr\xe4ger\n", TRIANGLE_OBJ.as_bytes()].concat();
     assert_eq!(mesh("a.obj", obj).carriers.names, ["Tr\u{fffd}ger"]);
-    let off = [b"OFF # M\xfcller\n", TRIANGLE_OFF[4..].as_bytes()].concat();
+    let off = [b"OFF # M\xfcller\n", &TRIANGLE_OFF.as_bytes()[4..]].concat();
     assert_eq!(mesh("a.off", off).faces.len(), 1);
     let ply = b"ply\nformat ascii 1.0\ncomment M\xfcller\nelement vertex 3\nproperty int x\nproperty int y\nproperty int z\n\
                 element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";

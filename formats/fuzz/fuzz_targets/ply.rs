@@ -1,0 +1,13 @@
+//! Any bytes as Ply: a mesh that keeps its promises, or an error.
+
+#![no_main]
+
+use beamwright_formats::{Format, ReadOptions, read_bytes};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(mesh) = read_bytes(bytes, Format::Ply, &ReadOptions::default()) {
+        mesh.check();
+        mesh.triangulate();
+    }
+});
