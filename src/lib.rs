@@ -3,4 +3,5 @@ pub mod finding;
 pub mod mesh;
 pub mod observer;
 pub mod output;
+pub mod section;
 pub mod skeleton;
