@@ -6,9 +6,9 @@ use crate::raw_mesh::LabelCarriers;
 
 /// Most names, and most combinations of names, of one file.
 ///
-/// A name of a few bytes takes some hundred bytes of memory with its place in the tables. A file
-/// made of nothing but names would thus take many times its size; no real part has so many.
-pub(crate) const MOST_NAMES: usize = 1_000_000;
+/// A name of a few bytes takes some two hundred bytes of memory with its place in the tables. A
+/// file made of nothing but names would thus take many times its size; no real part has so many.
+pub(crate) const MOST_NAMES: usize = 250_000;
 
 /// The file has more names than [`MOST_NAMES`].
 #[derive(Debug)]
@@ -26,6 +26,8 @@ pub(crate) struct NameTable {
 
 impl NameTable {
     /// The set of some names, told by bytes that need not be UTF-8; empty and doubled names fall out.
+    ///
+    /// The names must be few: each is looked for among all others.
     pub(crate) fn set<'n>(
         &mut self,
         names: impl IntoIterator<Item = &'n [u8]>,

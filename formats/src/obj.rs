@@ -37,6 +37,12 @@ use crate::raw_mesh::RawMesh;
 const LABEL_SOURCE: &str =
     "OBJ group, object and material names, material colours, or colours of points";
 
+/// Most words of a group line that are names by themselves.
+const MOST_GROUPS: usize = 16;
+
+/// Most different lines that name material libraries.
+const MOST_LIBRARIES: usize = 64;
+
 /// Reads an OBJ file; `folder` is where its material libraries are looked for.
 pub(crate) fn read(
     input: &mut Input<'_>,
@@ -78,7 +84,7 @@ struct Reader<'a> {
     names: NameTable,
     /// Set of names of the next face; `None` after one of them has changed.
     name_set: Option<u32>,
-    libraries: Vec<String>,
+    libraries: IndexSet<String>,
     materials: IndexSet<Vec<u8>>,
     /// First face, and index into `materials`, of each run of faces with one material.
     material_runs: Vec<(usize, usize)>,
@@ -96,7 +102,7 @@ impl<'a> Reader<'a> {
             material: Vec::new(),
             names: NameTable::default(),
             name_set: None,
-            libraries: Vec::new(),
+            libraries: IndexSet::new(),
             materials: IndexSet::new(),
             material_runs: Vec::new(),
             largest_index: (0, 0),
@@ -122,7 +128,12 @@ impl<'a> Reader<'a> {
             b"o" => &mut self.object,
             b"g" => &mut self.group,
             b"usemtl" => &mut self.material,
-            b"mtllib" => return self.libraries.push(String::from_utf8_lossy(rest).into_owned()),
+            b"mtllib" => {
+                if self.libraries.len() < MOST_LIBRARIES {
+                    self.libraries.insert(String::from_utf8_lossy(rest).into_owned());
+                }
+                return;
+            }
             _ => return,
         };
         name.clear();
@@ -210,7 +221,7 @@ impl<'a> Reader<'a> {
     fn make_name_set(&mut self) -> Result<u32, ReadError> {
         let words = || {
             let mut fields = Fields::of(&self.group);
-            std::iter::from_fn(move || fields.word())
+            std::iter::from_fn(move || fields.word()).take(MOST_GROUPS)
         };
         let single = [&self.object[..], &self.group];
         let names = single.into_iter().chain(words()).chain([&self.material[..]]);

@@ -18,7 +18,7 @@ const GLB_HEADER: usize = 20;
 /// Most objects in the JSON. Three bytes `{},` can become half a kilobyte in memory.
 const MOST_OBJECTS: u64 = 250_000;
 /// Most values in the JSON. Two bytes `0,` can become 32 in memory.
-const MOST_VALUES: u64 = 4_000_000;
+const MOST_VALUES: u64 = 2_000_000;
 
 /// Required extensions that change how a mesh looks, but not its shape, begin with one of these.
 const HARMLESS_EXTENSIONS: [&str; 6] = [

@@ -11,7 +11,7 @@ use crate::error::ReadError;
 /// Most nodes above a mesh whose names its faces get, the nearest ones.
 ///
 /// A made-up chain of nodes would otherwise give each of its meshes the names of all above it.
-const MOST_NAMES_ABOVE: usize = 64;
+const MOST_NAMES_ABOVE: usize = 16;
 
 /// A mesh at its place.
 pub(super) struct Instance<'d> {
@@ -38,15 +38,20 @@ pub(super) fn walk<'d>(
         }
         return Ok(());
     }
+    // Marked before they are put on the stack, which thus never holds a node twice.
     let mut seen = vec![false; document.nodes().len()];
+    let mut mark = |node: &Node<'_>| {
+        let was_seen = std::mem::replace(&mut seen[node.index()], true);
+        if was_seen { Err(met_twice(node, path)) } else { Ok(()) }
+    };
     let mut names_above = Vec::new();
-    let mut open: Vec<_> =
-        roots(document, path)?.into_iter().map(|root| (root, Placement::Z_UP, 0)).collect();
+    let mut open = Vec::new();
+    for root in roots(document, path)? {
+        mark(&root)?;
+        open.push((root, Placement::Z_UP, 0));
+    }
     open.reverse();
     while let Some((node, above, depth)) = open.pop() {
-        if std::mem::replace(&mut seen[node.index()], true) {
-            return Err(met_twice(&node, path));
-        }
         names_above.truncate(depth);
         names_above.push(node.name().unwrap_or_default());
         let placement = above.then(&Placement::of(&node.transform()));
@@ -55,7 +60,10 @@ pub(super) fn walk<'d>(
             take(Instance { mesh, placement, names })?;
         }
         let children = open.len();
-        open.extend(node.children().map(|child| (child, placement, depth + 1)));
+        for child in node.children() {
+            mark(&child)?;
+            open.push((child, placement, depth + 1));
+        }
         open[children..].reverse();
     }
     Ok(())
@@ -63,7 +71,8 @@ pub(super) fn walk<'d>(
 
 fn roots<'d>(document: &'d Document, path: &Path) -> Result<Vec<Node<'d>>, ReadError> {
     if let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) {
-        return Ok(scene.nodes().collect());
+        // One more than there are nodes is enough to find one of them twice.
+        return Ok(scene.nodes().take(document.nodes().len() + 1).collect());
     }
     let mut is_child = vec![false; document.nodes().len()];
     for child in document.nodes().flat_map(|node| node.children()) {

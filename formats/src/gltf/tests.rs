@@ -312,7 +312,7 @@ fn a_chain_of_nodes_may_be_long() {
     let text = tetrahedron_with(&format!(r#""nodes":[{chain}{{"mesh":0}}]"#));
     let mesh = mesh(text, Format::Gltf);
     assert_eq!(mesh.faces.len(), 4);
-    assert_eq!(names_of_faces(&mesh)[0].len(), 65);
+    assert_eq!(names_of_faces(&mesh)[0].len(), 17);
 }
 
 #[test]

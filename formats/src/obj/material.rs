@@ -15,6 +15,8 @@ use crate::nearby;
 
 /// Largest material library that is read, bytes.
 const LARGEST_LIBRARY: u64 = 16 << 20;
+/// Most files of a line.
+const MOST_FILES: usize = 16;
 /// Most materials of a library that are read: `tobj` takes over half a kilobyte for each.
 const MOST_MATERIALS: usize = 10_000;
 
@@ -24,7 +26,7 @@ type MaterialColours = HashMap<usize, [u8; 3]>;
 /// Reads the diffuse colours of the materials that faces use; the first library with a material wins.
 pub(super) fn read_colours(
     folder: &Path,
-    libraries: &[String],
+    libraries: &IndexSet<String>,
     used: &IndexSet<Vec<u8>>,
 ) -> MaterialColours {
     let mut colours = HashMap::new();
@@ -34,7 +36,9 @@ pub(super) fn read_colours(
     let mut seen = IndexSet::new();
     for library in libraries {
         // A line may name one file with blanks in its name, or several files.
-        for name in std::iter::once(library.as_str()).chain(library.split_whitespace()) {
+        for name in
+            std::iter::once(library.as_str()).chain(library.split_whitespace().take(MOST_FILES))
+        {
             if let Ok(path) = nearby::find(folder, name)
                 && seen.insert(path.clone())
                 && let Ok(text) = used_part(&path, used)
