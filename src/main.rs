@@ -1,2 +1,9 @@
 //! The command line of beamwright.
-fn main() {}
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main()
+}

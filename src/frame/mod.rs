@@ -18,6 +18,7 @@ pub mod beam_section;
 pub mod normalize;
 pub mod params;
 pub mod section_at;
+pub mod shape;
 mod solve;
 mod straighten;
 
@@ -25,6 +26,7 @@ pub use beam_section::{BeamAxes, BeamSection, Moments};
 pub use normalize::{Normalized, normalize};
 pub use params::FrameParams;
 pub use section_at::{Section, sections};
+pub use shape::{Loft, Shape};
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -74,6 +76,8 @@ pub struct Beam {
     pub length: f64,
     /// What the sections along it say.
     pub section: BeamSection,
+    /// The solid it is built as.
+    pub shape: Shape,
 }
 
 /// All nodes and beams.

@@ -7,6 +7,7 @@ use super::params::FrameParams;
 use super::section_at::Section;
 use super::solve::{Pull, solve_nodes};
 use super::straighten::{breaks, distance_to_segment};
+use super::shape::{Loft, freeform, round};
 use super::{Beam, Frame, Node, NodeId, NodeKind, direction};
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::InterfaceSection;
@@ -57,7 +58,7 @@ pub fn normalize(
     making.merge_near_nodes(skeleton, sections, &mut findings);
     making.solve(sections);
     making.report_deviations(skeleton, params, &mut findings);
-    let beams = making.pieces.iter().map(|p| beam(p, &making.nodes, sections)).collect();
+    let beams = making.pieces.iter().map(|p| beam(p, &making.nodes, sections, mean_radius(skeleton, &skeleton.branches[p.branch]))).collect();
     Normalized { frame: Frame { nodes: making.nodes, beams }, findings }
 }
 
@@ -244,7 +245,7 @@ fn mean_radius(skeleton: &Skeleton, branch: &Branch) -> f64 {
     sum / branch.points.len() as f64
 }
 
-fn beam(piece: &Piece, nodes: &[Node], sections: &[Option<Section>]) -> Beam {
+fn beam(piece: &Piece, nodes: &[Node], sections: &[Option<Section>], fallback: f64) -> Beam {
     let [a, b] = piece.ends.map(|n| nodes[n].position);
     let length = (b - a).norm();
     let found: Vec<&Section> =
@@ -252,11 +253,7 @@ fn beam(piece: &Piece, nodes: &[Node], sections: &[Option<Section>]) -> Beam {
     let free = BeamAxes::along(direction(&a, &b));
     let (.., angle) = BeamSection::new(&found, a, length, &free).mean.principal();
     let axes = free.rolled(angle);
-    Beam {
-        ends: piece.ends.map(NodeId::new),
-        branch: piece.branch as u32,
-        axes,
-        length,
-        section: BeamSection::new(&found, a, length, &axes),
-    }
+    let section = BeamSection::new(&found, a, length, &axes);
+    let shape = freeform(&section, Loft::Constant).unwrap_or_else(|| round(fallback));
+    Beam { ends: piece.ends.map(NodeId::new), branch: piece.branch as u32, axes, length, section, shape }
 }

@@ -17,6 +17,7 @@
 //! with their volume and place.
 
 use beamwright_formats::RawMesh;
+use nalgebra::Point3;
 
 use super::error::MeshError;
 use super::fans::{drop_unused_points, split_shared_vertices};
@@ -43,6 +44,40 @@ pub struct Surface {
     pub tree: TriangleTree,
     /// What was found and mended.
     pub report: MeshReport,
+}
+
+impl Surface {
+    /// Volume of the design part closed over its interface sections, mm³.
+    pub fn design_volume(&self) -> f64 {
+        let origin = self.mesh.positions().first().copied().unwrap_or_else(Point3::origin);
+        let design: f64 = self
+            .mesh
+            .faces()
+            .filter(|f| self.labels.is_design(*f))
+            .map(|f| {
+                let [a, b, c] = self.mesh.corners(f).map(|p| p - origin);
+                a.dot(&b.cross(&c)) / 6.0
+            })
+            .sum();
+        // The cap of a section looks out of the design part, against the section's normal.
+        let caps: f64 =
+            self.interfaces.iter().map(|i| i.normal.dot(&(i.centroid - origin)) * i.area / 3.0).sum();
+        design - caps
+    }
+
+    /// Area of the design faces, mm².
+    pub fn design_area(&self) -> f64 {
+        self.mesh
+            .faces()
+            .filter(|f| self.labels.is_design(*f))
+            .map(|f| self.mesh.face_area(f))
+            .sum()
+    }
+
+    /// Mean strut radius 2 V / A of the design part, mm.
+    pub fn mean_radius(&self) -> f64 {
+        2.0 * self.design_volume() / self.design_area()
+    }
 }
 
 /// What a file held and what was mended.

@@ -1,2 +1,9 @@
-//! What leaves the program: STEP for manufacturing.
+//! What leaves the program: STEP for manufacturing, the cut list, summaries, whole files.
+
+pub mod assembly;
+pub mod cut_list;
+pub mod files;
 pub mod step;
+pub mod summary;
+
+pub use files::{OutputFiles, WriteError, check_target};

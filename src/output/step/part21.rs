@@ -109,15 +109,19 @@ impl Display for Real {
 /// A string in quotes, with everything but plain ASCII escaped.
 ///
 /// `'` and `\` are doubled; other characters go by code point, four digits
-/// between `\X2\` and `\X0\`, or eight between `\X4\` and `\X0\`.
+/// between `\X2\` and `\X0\`, or eight between `\X4\` and `\X0\`.  So does a
+/// `'` that no letter or digit follows: OCCT takes `'')` for the end of a string.
 pub(super) struct Text<'a>(pub(super) &'a str);
 
 impl Display for Text<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_char('\'')?;
         let mut open = 0; // digits of the escape that is open
-        for c in self.0.chars() {
+        let mut rest = self.0.chars();
+        while let Some(c) = rest.next() {
+            let inside = rest.as_str().starts_with(|next: char| next.is_ascii_alphanumeric());
             let digits = match c {
+                '\'' if !inside => 4,
                 ' '..='~' => 0,
                 _ if (c as u32) < 0x1_0000 => 4,
                 _ => 8,
@@ -208,11 +212,17 @@ mod tests {
     }
 
     #[test]
+    fn quote_that_might_end_the_string_goes_by_code_point() {
+        assert_eq!(Text("f('x')").to_string(), r"'f(''x\X2\0027\X0\)'");
+        assert_eq!(Text("a'").to_string(), r"'a\X2\0027\X0\'");
+    }
+
+    #[test]
     fn other_alphabets_are_escaped_by_code_point() {
         assert_eq!(Text("Träger").to_string(), r"'Tr\X2\00E4\X0\ger'");
-        assert_eq!(Text("梁柱").to_string(), r"'\X2\68816871\X0\'".replace("6871", "67F1"));
+        assert_eq!(Text("梁柱").to_string(), r"'\X2\688167F1\X0\'");
         assert_eq!(Text("a🙂é").to_string(), r"'a\X4\0001F642\X0\\X2\00E9\X0\'");
-        assert_eq!(Text("a\n'").to_string(), r"'a\X2\000A\X0\'''");
+        assert_eq!(Text("a\nb").to_string(), r"'a\X2\000A\X0\b'");
     }
 
     #[test]

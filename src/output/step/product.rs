@@ -62,7 +62,8 @@ impl<'w, 'a> Products<'w, 'a> {
         let shape = self.part.entity(format_args!(
             "ADVANCED_BREP_SHAPE_REPRESENTATION('',({origin},{brep}),{context})"
         ))?;
-        let placed = self.product(&product.part.product, shape)?;
+        let (placed, whole) = self.product(&product.part.product, shape)?;
+        self.validation(whole, product.volume)?;
         let style = self.style(product.part.colour)?;
         self.styled.push(self.part.entity(format_args!("STYLED_ITEM('',({style}),{brep})"))?);
         for property in &product.part.properties {
@@ -77,11 +78,28 @@ impl<'w, 'a> Products<'w, 'a> {
             std::iter::once(self.origin).chain(placements.iter().copied()).collect();
         let (items, context) = (List(&items), self.context.geometry);
         let shape = self.part.entity(format_args!("SHAPE_REPRESENTATION('',{items},{context})"))?;
-        self.product(name, shape)
+        Ok(self.product(name, shape)?.0)
     }
 
-    /// Writes the administrative chain from a product to its shape.
-    fn product(&mut self, name: &str, shape: Id) -> Result<Placed, Fault> {
+    /// States the volume, for readers that check what they made of a solid.
+    fn validation(&mut self, whole: Id, volume: f64) -> Result<(), Fault> {
+        let (unit, volume, context) =
+            (self.power("VOLUME", 3.0)?, Real(volume), self.context.geometry);
+        let part = &mut *self.part;
+        let property = part.entity(format_args!(
+            "PROPERTY_DEFINITION('geometric validation property','',{whole})"
+        ))?;
+        let item = part.entity(format_args!(
+            "MEASURE_REPRESENTATION_ITEM('volume measure',VOLUME_MEASURE({volume}),{unit})"
+        ))?;
+        let value = part.entity(format_args!("REPRESENTATION('volume',({item}),{context})"))?;
+        part.entity(format_args!("PROPERTY_DEFINITION_REPRESENTATION({property},{value})"))?;
+        Ok(())
+    }
+
+    /// Writes the administrative chain from a product to its shape; also
+    /// returns the PRODUCT_DEFINITION_SHAPE.
+    fn product(&mut self, name: &str, shape: Id) -> Result<(Placed, Id), Fault> {
         let name = if name.trim().is_empty() { "Part" } else { name };
         let id = self.unique(name);
         let Context { product: context, definition: stage, .. } = self.context;
@@ -95,7 +113,7 @@ impl<'w, 'a> Products<'w, 'a> {
             self.part.entity(format_args!("PRODUCT_DEFINITION_SHAPE('','',{definition})"))?;
         self.part.entity(format_args!("SHAPE_DEFINITION_REPRESENTATION({whole},{shape})"))?;
         self.products.push(product);
-        Ok(Placed { definition, shape })
+        Ok((Placed { definition, shape }, whole))
     }
 
     /// A product number nothing else has: the name, with a count if need be.

@@ -50,7 +50,7 @@ pub fn skeleton(
     params: &SkeletonParams,
     observer: &mut impl Observer,
 ) -> Result<Marched, SkeletonError> {
-    let mean_radius = mean_radius(surface);
+    let mean_radius = surface.mean_radius();
     let mut march = March::new(surface, params);
     let found = search::find_tubes(&mut march, mean_radius, observer)?;
     let mut draft = Draft::new(&found, &surface.interfaces);
@@ -60,22 +60,6 @@ pub fn skeleton(
     simplify::simplify(&mut draft, surface);
     let skeleton = assemble::assemble(surface, params.step * mean_radius, &draft);
     Ok(Marched { skeleton, findings: findings(surface, &draft) })
-}
-
-/// Mean strut radius 2 V / A of the design part closed over its interface sections, mm.
-pub fn mean_radius(surface: &Surface) -> f64 {
-    let (mut volume, mut area) = (0.0, 0.0);
-    let origin = surface.mesh.positions()[0];
-    for f in surface.mesh.faces().filter(|f| surface.labels.is_design(*f)) {
-        let [a, b, c] = surface.mesh.corners(f).map(|p| p - origin);
-        volume += a.dot(&b.cross(&c)) / 6.0;
-        area += surface.mesh.face_area(f);
-    }
-    for i in &surface.interfaces {
-        // The cap looks out of the design part, against the section's normal.
-        volume -= i.normal.dot(&(i.centroid - origin)) * i.area / 3.0;
-    }
-    2.0 * volume / area
 }
 
 fn findings(surface: &Surface, draft: &Draft) -> Vec<Finding> {

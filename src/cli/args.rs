@@ -1,0 +1,283 @@
+//! What can be typed; one flag for one parameter field.
+
+use std::path::PathBuf;
+
+use beamwright::frame::FrameParams;
+use beamwright::mesh::LabelParams;
+use beamwright::mesh::label::DEFAULT_NAMES;
+use beamwright::pipeline::Settings;
+use beamwright::skeleton::{Orientation, SkeletonParams};
+use beamwright_formats::{ReadOptions, Unit};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// From a topology-optimized mesh to beams one can buy, cut and weld.
+#[derive(Debug, Parser)]
+#[command(name = "beamwright", version, max_term_width = 100, propagate_version = true)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+
+    #[command(flatten)]
+    pub(crate) global: GlobalArgs,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Turn a mesh into beams: STEP assembly, cut list, skeleton
+    #[command(after_help = RECONSTRUCT_EXAMPLES)]
+    Reconstruct(ReconstructArgs),
+    /// March the skeleton of a mesh and write it
+    #[command(after_help = SKELETON_EXAMPLES)]
+    Skeleton(SkeletonArgs),
+    /// Check a mesh: what was mended, labels per source, interface sections
+    Inspect(InspectArgs),
+}
+
+const RECONSTRUCT_EXAMPLES: &str = "\
+Examples:
+  beamwright reconstruct part.obj -o part.step
+  beamwright reconstruct part.stl --non-design pads.stl -o part.step --cut-list part.csv
+  beamwright reconstruct part.ply -o part.step --skeleton part.json --json";
+
+const SKELETON_EXAMPLES: &str = "\
+Examples:
+  beamwright skeleton part.obj -o skeleton.json
+  beamwright skeleton part.obj -o skeleton.ply      (opens in MeshLab)";
+
+/// Flags of every subcommand.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Messages")]
+pub(crate) struct GlobalArgs {
+    /// No progress, no notes; errors only
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+
+    /// More notes on standard error
+    #[arg(short, long, global = true, conflicts_with = "quiet")]
+    pub(crate) verbose: bool,
+
+    /// How progress is shown on standard error
+    #[arg(long, global = true, value_name = "HOW", default_value = "auto")]
+    pub(crate) progress: ProgressStyle,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressStyle {
+    /// A bar on a terminal, nothing elsewhere
+    Auto,
+    /// One JSON object a line
+    Json,
+    /// Nothing
+    None,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ReconstructArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) march: MarchArgs,
+    #[command(flatten)]
+    pub(crate) frame: FrameArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) result: ResultArgs,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct SkeletonArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) march: MarchArgs,
+
+    /// Skeleton file: .json .obj .ply .cg .swc
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) result: ResultArgs,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct InspectArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) result: ResultArgs,
+}
+
+/// How the result is shown.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct ResultArgs {
+    /// Print the result as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// End with exit code 3 when a promise does not hold (points outside, wrong topology)
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Input")]
+pub(crate) struct InputArgs {
+    /// Mesh file: .off .obj .ply .stl .gltf .glb
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Unit of length in the file (default: mm; glTF: m)
+    #[arg(long, value_name = "mm|cm|m|in")]
+    pub(crate) unit: Option<Unit>,
+
+    /// Closed mesh of a non-design part; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) non_design: Vec<PathBuf>,
+
+    /// Box in mm whose faces are non-design; may be repeated
+    #[arg(
+        long,
+        value_name = "X0,Y0,Z0,X1,Y1,Z1",
+        value_delimiter = ',',
+        num_args = 6,
+        allow_hyphen_values = true,
+        action = clap::ArgAction::Append
+    )]
+    pub(crate) non_design_box: Vec<f64>,
+
+    /// Name of a group, material or solid that is non-design, with * for anything
+    #[arg(long, value_name = "PATTERN", default_values_t = DEFAULT_NAMES.map(String::from))]
+    pub(crate) non_design_name: Vec<String>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Marching")]
+pub(crate) struct MarchArgs {
+    /// Frame in which the identifier box is carried along
+    #[arg(long, value_name = "FRAME", default_value = "local")]
+    pub(crate) orientation: OrientationArg,
+
+    /// Distance between skeletal points, in mean strut radii
+    #[arg(long, value_name = "RADII", default_value_t = SkeletonParams::default().step)]
+    pub(crate) step: f64,
+
+    /// Growth of the box at which a junction begins
+    #[arg(long, value_name = "RATIO", default_value_t = SkeletonParams::default().width_ratio)]
+    pub(crate) width_ratio: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OrientationArg {
+    /// The box turns with the branch
+    Local,
+    /// The box stays aligned with the global axes
+    Global,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Beams")]
+pub(crate) struct FrameArgs {
+    /// Farthest a branch may bend away from one straight beam, in section radii
+    #[arg(long, value_name = "RADII", default_value_t = FrameParams::default().max_deviation)]
+    pub(crate) max_deviation: f64,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct OutputArgs {
+    /// STEP file with one named solid a beam
+    #[arg(short, long, value_name = "OUT.step")]
+    pub(crate) output: PathBuf,
+
+    /// Cut list (default: beside the STEP file, ending .csv)
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) cut_list: Option<PathBuf>,
+
+    /// Skeleton: .json .obj .ply .cg .swc (default: beside the STEP file, ending .skeleton.json)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) skeleton: Option<PathBuf>,
+
+    /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
+    #[arg(long, value_name = "KG/M3", default_value_t = 7850.0)]
+    pub(crate) density: f64,
+}
+
+impl InputArgs {
+    fn labels(&self) -> LabelParams {
+        LabelParams {
+            second_meshes: Vec::new(),
+            boxes: self
+                .non_design_box
+                .chunks_exact(6)
+                .map(|c| [c[0], c[1], c[2], c[3], c[4], c[5]])
+                .collect(),
+            names: self.non_design_name.clone(),
+        }
+    }
+
+    /// Settings for reading and labelling; the rest at its defaults.
+    pub(crate) fn settings(&self) -> Settings {
+        Settings {
+            read: ReadOptions { unit: self.unit, ..ReadOptions::default() },
+            non_design_files: self.non_design.clone(),
+            labels: self.labels(),
+            ..Settings::default()
+        }
+    }
+}
+
+impl From<&MarchArgs> for SkeletonParams {
+    fn from(args: &MarchArgs) -> Self {
+        let MarchArgs { orientation, step, width_ratio } = *args;
+        let orientation = match orientation {
+            OrientationArg::Local => Orientation::Local,
+            OrientationArg::Global => Orientation::Global,
+        };
+        Self { orientation, step, width_ratio }
+    }
+}
+
+impl From<&FrameArgs> for FrameParams {
+    fn from(args: &FrameArgs) -> Self {
+        let FrameArgs { max_deviation } = *args;
+        Self { max_deviation }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn flag_defaults_are_the_library_defaults() {
+        let cli = Cli::parse_from(["beamwright", "reconstruct", "in.obj", "-o", "out.step"]);
+        let Command::Reconstruct(args) = cli.command else { panic!("another subcommand") };
+        assert_eq!(SkeletonParams::from(&args.march), SkeletonParams::default());
+        assert_eq!(FrameParams::from(&args.frame), FrameParams::default());
+        assert_eq!(args.input.settings().labels.names, LabelParams::default().names);
+    }
+
+    #[test]
+    fn boxes_with_negative_corners_are_taken() {
+        let cli = Cli::parse_from([
+            "beamwright",
+            "inspect",
+            "in.obj",
+            "--non-design-box",
+            "-1,-2,-3,1,2,3",
+            "--non-design-box",
+            "5,5,5,6,6,6",
+        ]);
+        let Command::Inspect(args) = cli.command else { panic!("another subcommand") };
+        let boxes = args.input.settings().labels.boxes;
+        assert_eq!(boxes, [[-1., -2., -3., 1., 2., 3.], [5., 5., 5., 6., 6., 6.]]);
+    }
+}

@@ -1,0 +1,20 @@
+//! `beamwright inspect`.
+
+use beamwright::output::summary::Summary;
+use beamwright::pipeline::{mesh_findings, surface};
+
+use super::args::{GlobalArgs, InspectArgs};
+use super::exit::{Exit, Failure};
+use super::progress::Progress;
+use super::show;
+
+pub(crate) fn run(
+    args: &InspectArgs,
+    _global: &GlobalArgs,
+    progress: &mut Progress,
+) -> Result<Exit, Failure> {
+    let surface = surface(&args.input.input, &args.input.settings(), progress)?;
+    progress.finish();
+    let name = show::name_of(&args.input.input);
+    show::summary(&Summary::new(name, &surface, &mesh_findings(&surface)), &args.result)
+}

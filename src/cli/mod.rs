@@ -1,0 +1,46 @@
+//! Parses what was typed, runs it, prints the result, and ends with the right exit code.
+
+mod args;
+mod exit;
+mod inspect;
+mod progress;
+mod reconstruct;
+mod show;
+mod skeleton;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use clap::error::ErrorKind;
+
+use self::args::{Cli, Command};
+use self::exit::{Exit, Failure};
+use self::progress::Progress;
+
+/// Runs the command line.
+pub(crate) fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version go to standard output and are no failure.
+            let asked_for = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+            let _ = error.print();
+            return if asked_for { Exit::Done } else { Exit::Usage }.into();
+        }
+    };
+    progress::watch_for_interrupt();
+    let mut progress = Progress::new(&cli.global);
+    let ended = match &cli.command {
+        Command::Reconstruct(args) => reconstruct::run(args, &cli.global, &mut progress),
+        Command::Skeleton(args) => skeleton::run(args, &cli.global, &mut progress),
+        Command::Inspect(args) => inspect::run(args, &cli.global, &mut progress),
+    };
+    progress.finish();
+    match ended {
+        Ok(exit) => exit.into(),
+        Err(Failure { exit, message }) => {
+            eprintln!("error: {message}");
+            exit.into()
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! `beamwright reconstruct`: the main job.
+
+use std::path::{Path, PathBuf};
+
+use beamwright::output::summary::Summary;
+use beamwright::output::{OutputFiles, assembly, check_target, cut_list, step};
+use beamwright::pipeline::{self, Outcome};
+use beamwright::skeleton_file;
+
+use super::args::{GlobalArgs, ReconstructArgs};
+use super::exit::{Exit, Failure};
+use super::progress::{Progress, interrupted};
+use super::show;
+use super::skeleton::skeleton_format;
+
+pub(crate) fn run(
+    args: &ReconstructArgs,
+    _global: &GlobalArgs,
+    progress: &mut Progress,
+) -> Result<Exit, Failure> {
+    let targets = Targets::new(args)?;
+    let mut settings = args.input.settings();
+    settings.skeleton = (&args.march).into();
+    settings.frame = (&args.frame).into();
+    let outcome = pipeline::run(&args.input.input, &settings, progress)?;
+    let name = show::name_of(&args.input.input);
+    let summary = Summary::new(name, &outcome.surface, &outcome.findings)
+        .with_skeleton(&outcome.surface, &outcome.skeleton)
+        .with_frame(&outcome.surface, &outcome.frame);
+    if !(args.result.strict && summary.has_breach()) {
+        write(&targets, args, &outcome)?;
+    }
+    progress.finish();
+    show::summary(&summary, &args.result)
+}
+
+/// Where the results go.
+struct Targets {
+    step: PathBuf,
+    cut_list: PathBuf,
+    skeleton: PathBuf,
+    skeleton_format: skeleton_file::Format,
+}
+
+impl Targets {
+    /// Checks every target before the work begins.
+    fn new(args: &ReconstructArgs) -> Result<Self, Failure> {
+        let step = args.output.output.clone();
+        let is_step = step
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("step") || e.eq_ignore_ascii_case("stp"));
+        if !is_step {
+            return Err(Failure::usage(format!(
+                "the output {} must end in .step or .stp",
+                step.display()
+            )));
+        }
+        let beside = |ending: &str| step.with_extension(ending);
+        let cut_list = args.output.cut_list.clone().unwrap_or_else(|| beside("csv"));
+        let skeleton = args.output.skeleton.clone().unwrap_or_else(|| beside("skeleton.json"));
+        let all = [&step, &cut_list, &skeleton];
+        for (i, target) in all.iter().enumerate() {
+            check_target(target).map_err(Failure::input)?;
+            if same_file(target, &args.input.input) {
+                return Err(Failure::usage(format!(
+                    "the output {} is the input file",
+                    target.display()
+                )));
+            }
+            if all[..i].contains(target) {
+                return Err(Failure::usage(format!("{} is named twice", target.display())));
+            }
+        }
+        Ok(Self { skeleton_format: skeleton_format(&skeleton)?, step, cut_list, skeleton })
+    }
+}
+
+/// Whether two paths name one existing file.
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+fn write(targets: &Targets, args: &ReconstructArgs, outcome: &Outcome) -> Result<(), Failure> {
+    let name = args.input.input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let document = assembly::document(&name, &outcome.frame, args.output.density)
+        .map_err(Failure::input)?;
+    let rows = cut_list::rows(&outcome.frame, args.output.density);
+    let mut files = OutputFiles::default();
+    files
+        .add(&targets.step, |mut out| {
+            step::write(&document, &mut out).map_err(|e| std::io::Error::other(e.to_string()))
+        })
+        .and_then(|()| files.add(&targets.cut_list, |out| cut_list::write_csv(&rows, out)))
+        .and_then(|()| {
+            files.add(&targets.skeleton, |mut out| {
+                skeleton_file::write(&outcome.skeleton, targets.skeleton_format, &mut out)
+            })
+        })
+        .map_err(Failure::input)?;
+    if interrupted() {
+        return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
+    }
+    files.commit().map_err(Failure::input)
+}

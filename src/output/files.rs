@@ -1,0 +1,122 @@
+//! Output files appear whole or not at all.
+//!
+//! Everything is written to temporary files beside the targets; only when all are complete are they
+//! renamed over them. A failure on the way leaves what was there before.
+
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+
+/// Files that are written together.
+#[derive(Debug, Default)]
+pub struct OutputFiles {
+    pending: Vec<(PathBuf, NamedTempFile)>,
+}
+
+/// A file that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", path.display())]
+pub struct WriteError {
+    /// The file.
+    pub path: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
+/// Whether a file can be created at a path: its folder is there and it is no folder itself.
+///
+/// # Errors
+/// What creating it would fail with.
+pub fn check_target(path: &Path) -> Result<(), WriteError> {
+    let fail = |kind: io::ErrorKind, what: &str| {
+        Err(WriteError { path: path.to_owned(), source: io::Error::new(kind, what.to_owned()) })
+    };
+    if path.is_dir() {
+        return fail(io::ErrorKind::IsADirectory, "it is a folder");
+    }
+    if !folder_of(path).is_dir() {
+        return fail(io::ErrorKind::NotFound, "its folder does not exist");
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+impl OutputFiles {
+    /// Writes a file under a temporary name.
+    ///
+    /// # Errors
+    /// What `write` fails with, or the file system.
+    pub fn add<E: From<io::Error> + ToString>(
+        &mut self,
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+    ) -> Result<(), WriteError> {
+        let failed = |source: io::Error| WriteError { path: path.to_owned(), source };
+        let mut builder = Builder::new();
+        builder.prefix(".beamwright-").suffix(".part");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As any new file: the user's mask decides.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let file = builder.tempfile_in(folder_of(path)).map_err(failed)?;
+        let mut buffered = BufWriter::with_capacity(1 << 16, file);
+        write(&mut buffered).map_err(|e| failed(io::Error::other(e.to_string())))?;
+        let file = buffered.into_inner().map_err(|e| failed(e.into_error()))?;
+        self.pending.push((path.to_owned(), file));
+        Ok(())
+    }
+
+    /// Puts all files in their places.
+    ///
+    /// # Errors
+    /// The first file that cannot be renamed; those after it are not written.
+    pub fn commit(self) -> Result<(), WriteError> {
+        for (path, file) in self.pending {
+            file.persist(&path)
+                .map_err(|e| WriteError { path: path.clone(), source: e.error })?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_leaves_the_old_file_and_nothing_else() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("a.txt");
+        std::fs::write(&path, "old")?;
+        let mut files = OutputFiles::default();
+        files.add(&path, |out| out.write_all(b"new"))?;
+        let second = folder.path().join("b.txt");
+        let failed = files.add(&second, |_| Err(io::Error::other("full")));
+        assert!(failed.is_err_and(|e| e.to_string().ends_with("b.txt: full")));
+        drop(files);
+        assert_eq!(std::fs::read_to_string(&path)?, "old");
+        assert_eq!(std::fs::read_dir(folder.path())?.count(), 1);
+        Ok(())
+    }
+
+    #[test]
+    fn a_success_replaces_the_old_file() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("a.txt");
+        std::fs::write(&path, "old")?;
+        let mut files = OutputFiles::default();
+        files.add(&path, |out| out.write_all(b"new"))?;
+        files.commit()?;
+        assert_eq!(std::fs::read_to_string(&path)?, "new");
+        Ok(())
+    }
+}

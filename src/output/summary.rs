@@ -1,0 +1,399 @@
+//! What a run found, in numbers: for machines as JSON, for people as a table of 80 columns.
+
+use std::fmt::{self, Display, Write};
+
+use serde::Serialize;
+
+use crate::finding::Finding;
+use crate::frame::Frame;
+use crate::mesh::{InterfaceKind, InterfaceSection, Label, MeshReport, Surface};
+use crate::skeleton::verify::Homotopy;
+use crate::skeleton::{PointKind, Skeleton};
+
+/// The mesh: what was read and mended.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshSummary {
+    /// Triangles of the surface that is used.
+    pub triangles: usize,
+    /// Its points.
+    pub vertices: usize,
+    /// Separate bodies.
+    pub bodies: usize,
+    /// Tunnels through the whole surface.
+    pub genus: usize,
+    /// Enclosed volume, mm³.
+    pub volume: f64,
+    /// Area, mm².
+    pub area: f64,
+    /// Diagonal of the bounding box, mm.
+    pub diagonal: f64,
+    /// What was mended, by name; only what occurred.
+    pub mended: Vec<(String, usize)>,
+    /// Volumes of hollows that were left out, mm³.
+    pub cavities: Vec<f64>,
+    /// Volumes of floating islands that were left out, mm³.
+    pub islands: Vec<f64>,
+}
+
+/// The labels: which source was followed and what it marks.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LabelSummary {
+    /// The source that was followed; none: no labels.
+    pub source: Option<&'static str>,
+    /// Faces marked by each source that is present.
+    pub marked: Vec<(&'static str, usize)>,
+    /// Design faces after cleaning.
+    pub design_faces: usize,
+    /// Non-design faces after cleaning.
+    pub non_design_faces: usize,
+    /// Non-design sets.
+    pub sets: usize,
+    /// Interface sections.
+    pub interfaces: Vec<InterfaceSummary>,
+}
+
+/// One interface section.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InterfaceSummary {
+    /// The non-design set beyond it, from 0.
+    pub set: u32,
+    /// Area centroid, mm.
+    pub centroid: [f64; 3],
+    /// Into the design part.
+    pub normal: [f64; 3],
+    /// Area, mm².
+    pub area: f64,
+    /// Edges of the loop.
+    pub edges: usize,
+    /// `section` or `rim`.
+    pub kind: &'static str,
+}
+
+/// The skeleton.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SkeletonSummary {
+    /// Compactness: number of skeletal points.
+    pub points: usize,
+    /// Branches.
+    pub branches: usize,
+    /// Junctions.
+    pub junctions: usize,
+    /// Ends in interface sections.
+    pub interface_ends: usize,
+    /// Free ends.
+    pub free_ends: usize,
+    /// Independent cycles.
+    pub cycles: usize,
+    /// Cycles the design part has.
+    pub expected_cycles: usize,
+    /// Connected parts.
+    pub components: usize,
+    /// Connected parts the design part has.
+    pub expected_components: usize,
+    /// Length of all branches, mm.
+    pub length: f64,
+}
+
+/// The frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrameSummary {
+    /// Nodes.
+    pub nodes: usize,
+    /// Beams.
+    pub beams: usize,
+    /// Length of all beams between their nodes, mm.
+    pub length: f64,
+    /// Σ mean section area × length, mm³.
+    pub volume: f64,
+    /// Volume of the design part, mm³.
+    pub design_volume: f64,
+}
+
+/// A finding, as printed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FindingSummary {
+    /// Kind in kebab case.
+    pub kind: &'static str,
+    /// Whether a promise is broken.
+    pub breach: bool,
+    /// One sentence.
+    pub text: String,
+    /// Where, mm.
+    pub place: Option<[f64; 3]>,
+}
+
+/// Everything one run has to say; parts that were not run are left out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Name of the input file.
+    pub input: String,
+    /// The mesh.
+    pub mesh: MeshSummary,
+    /// Its labels.
+    pub labels: LabelSummary,
+    /// The skeleton.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub skeleton: Option<SkeletonSummary>,
+    /// The frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<FrameSummary>,
+    /// What is odd.
+    pub findings: Vec<FindingSummary>,
+}
+
+impl Summary {
+    /// What is known of a surface.
+    pub fn new(input: impl Into<String>, surface: &Surface, findings: &[Finding]) -> Self {
+        Self {
+            input: input.into(),
+            mesh: MeshSummary::new(&surface.report),
+            labels: LabelSummary::new(surface),
+            skeleton: None,
+            frame: None,
+            findings: findings.iter().map(FindingSummary::new).collect(),
+        }
+    }
+
+    /// Adds the skeleton.
+    pub fn with_skeleton(mut self, surface: &Surface, skeleton: &Skeleton) -> Self {
+        self.skeleton = Some(SkeletonSummary::new(surface, skeleton));
+        self
+    }
+
+    /// Adds the frame.
+    pub fn with_frame(mut self, surface: &Surface, frame: &Frame) -> Self {
+        self.frame = Some(FrameSummary {
+            nodes: frame.nodes.len(),
+            beams: frame.beams.len(),
+            length: frame.beams.iter().map(|b| b.length).sum(),
+            volume: frame.beams.iter().map(|b| b.length * b.section.mean.area).sum(),
+            design_volume: surface.design_volume(),
+        });
+        self
+    }
+
+    /// Whether a promise is broken.
+    pub fn has_breach(&self) -> bool {
+        self.findings.iter().any(|f| f.breach)
+    }
+}
+
+impl MeshSummary {
+    fn new(report: &MeshReport) -> Self {
+        let mended = [
+            ("merged_points", report.merged_points),
+            ("merged_near_points", report.merged_near_points),
+            ("degenerate_triangles", report.degenerate_triangles),
+            ("duplicate_triangles", report.duplicate_triangles),
+            ("flipped_triangles", report.flipped_triangles),
+            ("split_edges", report.split_edges),
+            ("split_vertices", report.split_vertices),
+            ("closed_openings", report.closed_openings),
+        ];
+        Self {
+            triangles: report.triangles,
+            vertices: report.vertices,
+            bodies: report.bodies,
+            genus: report.genus,
+            volume: report.volume,
+            area: report.area,
+            diagonal: report.extent,
+            mended: mended.iter().filter(|m| m.1 > 0).map(|m| (m.0.to_owned(), m.1)).collect(),
+            cavities: report.cavities.iter().map(|s| s.volume.abs()).collect(),
+            islands: report.islands.iter().map(|s| s.volume.abs()).collect(),
+        }
+    }
+}
+
+impl LabelSummary {
+    fn new(surface: &Surface) -> Self {
+        let counts = &surface.report.labels;
+        let design_faces =
+            surface.labels.of_face.iter().filter(|l| **l == Label::Design).count();
+        Self {
+            source: counts.used.map(|s| s.describe()),
+            marked: counts.marked.iter().map(|(s, n)| (s.describe(), *n)).collect(),
+            design_faces,
+            non_design_faces: surface.labels.of_face.len() - design_faces,
+            sets: surface.labels.sets,
+            interfaces: surface.interfaces.iter().map(InterfaceSummary::new).collect(),
+        }
+    }
+}
+
+impl InterfaceSummary {
+    fn new(section: &InterfaceSection) -> Self {
+        Self {
+            set: section.set.0,
+            centroid: section.centroid.into(),
+            normal: section.normal.into(),
+            area: section.area,
+            edges: section.half_edges.len(),
+            kind: match section.kind {
+                InterfaceKind::Section => "section",
+                InterfaceKind::Rim => "rim",
+            },
+        }
+    }
+}
+
+impl SkeletonSummary {
+    fn new(surface: &Surface, skeleton: &Skeleton) -> Self {
+        let expected = Homotopy::of(surface);
+        Self {
+            points: skeleton.points.len(),
+            branches: skeleton.branches.len(),
+            junctions: skeleton.count(PointKind::Junction),
+            interface_ends: skeleton.count(PointKind::Interface),
+            free_ends: skeleton.count(PointKind::End),
+            cycles: skeleton.cycle_rank(),
+            expected_cycles: expected.cycles,
+            components: skeleton.components(),
+            expected_components: expected.components,
+            length: skeleton.branches.iter().map(|b| skeleton.length(b)).sum(),
+        }
+    }
+}
+
+impl FindingSummary {
+    fn new(finding: &Finding) -> Self {
+        Self {
+            kind: finding.kind.name(),
+            breach: finding.breach,
+            text: finding.text.clone(),
+            place: finding.place.map(Into::into),
+        }
+    }
+}
+
+/// A count as "1,234,567".
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(c);
+    }
+    out
+}
+
+impl Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut row = |name: &str, text: &str| writeln!(f, "{name:<11} {text}");
+        row("input", &self.input)?;
+        row("mesh", &mesh_line(&self.mesh))?;
+        if !self.mesh.mended.is_empty() {
+            let mended: Vec<String> = self
+                .mesh
+                .mended
+                .iter()
+                .map(|(what, n)| format!("{} {}", grouped(*n), what.replace('_', " ")))
+                .collect();
+            row("mended", &mended.join(", "))?;
+        }
+        row("labels", &label_line(&self.labels))?;
+        if self.skeleton.is_none() {
+            for section in &self.labels.interfaces {
+                row("", &interface_line(section))?;
+            }
+        }
+        if let Some(skeleton) = &self.skeleton {
+            row("skeleton", &skeleton_line(skeleton))?;
+        }
+        if let Some(frame) = &self.frame {
+            row("frame", &frame_line(frame))?;
+        }
+        for finding in &self.findings {
+            row(if finding.breach { "BREACH" } else { "note" }, &finding_line(finding))?;
+        }
+        Ok(())
+    }
+}
+
+fn mesh_line(mesh: &MeshSummary) -> String {
+    format!(
+        "{} triangles, {} bod{}, genus {}, {:.1} mm across, {:.0} mm³",
+        grouped(mesh.triangles),
+        mesh.bodies,
+        if mesh.bodies == 1 { "y" } else { "ies" },
+        mesh.genus,
+        mesh.diagonal,
+        mesh.volume
+    )
+}
+
+fn label_line(labels: &LabelSummary) -> String {
+    let Some(source) = labels.source else {
+        return "none: the whole mesh is design".to_owned();
+    };
+    let mut line = format!(
+        "by {source}: {} non-design faces in {} set(s), {} interface section(s)",
+        grouped(labels.non_design_faces),
+        labels.sets,
+        labels.interfaces.len()
+    );
+    let others: Vec<String> = labels
+        .marked
+        .iter()
+        .filter(|(s, _)| *s != source)
+        .map(|(s, n)| format!("{s}: {}", grouped(*n)))
+        .collect();
+    if !others.is_empty() {
+        let _ = write!(line, " (not used: {})", others.join(", "));
+    }
+    line
+}
+
+fn interface_line(section: &InterfaceSummary) -> String {
+    let [x, y, z] = section.centroid;
+    format!(
+        "set {}: {} of {:.2} mm² at ({x:.2}, {y:.2}, {z:.2})",
+        section.set + 1,
+        section.kind,
+        section.area
+    )
+}
+
+fn skeleton_line(s: &SkeletonSummary) -> String {
+    let mut line = format!(
+        "{} branches, {} junctions, {} points, {:.1} mm; cycles {} of {}",
+        s.branches, s.junctions, s.points, s.length, s.cycles, s.expected_cycles
+    );
+    if s.free_ends > 0 {
+        let _ = write!(line, "; {} free end(s)", s.free_ends);
+    }
+    line
+}
+
+fn frame_line(frame: &FrameSummary) -> String {
+    format!(
+        "{} beams, {} nodes, {:.1} mm; {:.0} mm³ of {:.0} mm³ design ({:+.1} %)",
+        frame.beams,
+        frame.nodes,
+        frame.length,
+        frame.volume,
+        frame.design_volume,
+        100.0 * (frame.volume / frame.design_volume - 1.0)
+    )
+}
+
+fn finding_line(finding: &FindingSummary) -> String {
+    match finding.place {
+        Some([x, y, z]) => format!("{} at ({x:.2}, {y:.2}, {z:.2}) mm", finding.text),
+        None => finding.text.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_grouped_by_three() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+    }
+}

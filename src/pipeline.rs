@@ -1,0 +1,220 @@
+//! The stages in order: file → surface → skeleton → sections → frame.
+//!
+//! Each stage hands its result to the next; nothing is shared behind their backs. What is odd but
+//! workable is gathered as [`Finding`]s on the way.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use beamwright_formats::{ReadError, ReadOptions, read};
+
+use crate::finding::{Finding, FindingKind};
+use crate::frame::{self, Frame, FrameParams, Section, normalize};
+use crate::mesh::indexed::{IndexedMesh, weld};
+use crate::mesh::label::{LabelParams, LabelSource};
+use crate::mesh::{MeshError, Surface, prepare};
+use crate::observer::{Observer, Stage};
+use crate::skeleton::params::OutOfRange;
+use crate::skeleton::{self, Marched, Skeleton, SkeletonError, SkeletonParams};
+
+/// Everything that steers a run.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    /// How the file is read.
+    pub read: ReadOptions,
+    /// Files with the non-design part, as closed meshes.
+    pub non_design_files: Vec<PathBuf>,
+    /// What else says which faces are non-design; its second meshes are read from the files.
+    pub labels: LabelParams,
+    /// The march.
+    pub skeleton: SkeletonParams,
+    /// Normalization.
+    pub frame: FrameParams,
+}
+
+/// What a run produced.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The surface that was marched.
+    pub surface: Surface,
+    /// Its skeleton.
+    pub skeleton: Skeleton,
+    /// The section at each skeletal point.
+    pub sections: Vec<Option<Section>>,
+    /// Straight beams.
+    pub frame: Frame,
+    /// What the user should know, breaches first.
+    pub findings: Vec<Finding>,
+}
+
+/// Why a run ended without a result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PipelineError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The mesh cannot be used.
+    #[error("cannot use {}: {source}", path.display())]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: MeshError,
+    },
+    /// No skeleton was found.
+    #[error("no skeleton of {}: {source}", path.display())]
+    Skeleton {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: SkeletonError,
+    },
+    /// A parameter is out of its range.
+    #[error(transparent)]
+    Params(#[from] OutOfRange),
+    /// The observer asked to stop.
+    #[error("interrupted")]
+    Cancelled,
+}
+
+/// Reads a file and makes a surface of it.
+///
+/// # Errors
+/// The file cannot be read or its mesh cannot be used.
+pub fn surface(
+    path: &Path,
+    settings: &Settings,
+    observer: &mut impl Observer,
+) -> Result<Surface, PipelineError> {
+    step(observer, Stage::Read, 0)?;
+    let raw = read(path, &settings.read)?;
+    let mut labels = settings.labels.clone();
+    for file in &settings.non_design_files {
+        labels.second_meshes.push(read_part(file, &settings.read)?);
+    }
+    step(observer, Stage::Mesh, 0)?;
+    let surface = prepare(&raw, &labels)
+        .map_err(|source| PipelineError::Mesh { path: path.to_owned(), source })?;
+    step(observer, Stage::Mesh, 1)?;
+    Ok(surface)
+}
+
+fn read_part(path: &Path, options: &ReadOptions) -> Result<IndexedMesh, PipelineError> {
+    Ok(weld(&read(path, options)?).0)
+}
+
+/// Reads a file and marches its skeleton.
+///
+/// # Errors
+/// As [`surface`]; or no part of it is beam-like.
+pub fn march(
+    path: &Path,
+    settings: &Settings,
+    observer: &mut impl Observer,
+) -> Result<(Surface, Marched), PipelineError> {
+    settings.skeleton.check()?;
+    let surface = surface(path, settings, observer)?;
+    let mut marched =
+        skeleton::march(&surface, &settings.skeleton, observer).map_err(|source| match source {
+            SkeletonError::Cancelled => PipelineError::Cancelled,
+            source => PipelineError::Skeleton { path: path.to_owned(), source },
+        })?;
+    marched.findings.extend(mesh_findings(&surface));
+    breaches_first(&mut marched.findings);
+    Ok((surface, marched))
+}
+
+/// Runs all stages on a file.
+///
+/// # Errors
+/// As [`march`].
+pub fn run(
+    path: &Path,
+    settings: &Settings,
+    observer: &mut impl Observer,
+) -> Result<Outcome, PipelineError> {
+    settings.frame.check()?;
+    let (surface, Marched { skeleton, mut findings }) = march(path, settings, observer)?;
+    step(observer, Stage::Sections, 0)?;
+    let sections = frame::sections(&surface, &skeleton);
+    step(observer, Stage::Frame, 0)?;
+    let normalized = normalize(&skeleton, &sections, &surface.interfaces, &settings.frame);
+    step(observer, Stage::Frame, 1)?;
+    findings.extend(normalized.findings);
+    breaches_first(&mut findings);
+    Ok(Outcome { surface, skeleton, sections, frame: normalized.frame, findings })
+}
+
+fn step(observer: &mut impl Observer, stage: Stage, done: usize) -> Result<(), PipelineError> {
+    match observer.progress(stage, done, 1) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(PipelineError::Cancelled),
+    }
+}
+
+fn breaches_first(findings: &mut [Finding]) {
+    findings.sort_by_key(|f| (!f.breach, f.kind));
+}
+
+/// What was mended and left out, in words.
+pub fn mesh_findings(surface: &Surface) -> Vec<Finding> {
+    let report = &surface.report;
+    let mut findings = Vec::new();
+    let mended = [
+        (report.merged_near_points, "near point(s) merged"),
+        (report.degenerate_triangles, "triangle(s) without area dropped"),
+        (report.duplicate_triangles, "repeated triangle(s) dropped"),
+        (report.flipped_triangles, "triangle(s) turned round"),
+        (report.split_edges, "edge(s) of more than two triangles cut apart"),
+        (report.split_vertices, "vertex(es) shared by separate fans split"),
+        (report.closed_openings, "opening(s) closed"),
+    ];
+    for (count, what) in mended.into_iter().filter(|m| m.0 > 0) {
+        findings.push(Finding::note(FindingKind::MeshMended, None, format!("{count} {what}")));
+    }
+    for cavity in &report.cavities {
+        findings.push(Finding::note(
+            FindingKind::Cavity,
+            Some(cavity.place),
+            format!(
+                "a closed hollow of {:.3} mm³ was left out; sections are taken as solid",
+                cavity.volume.abs()
+            ),
+        ));
+    }
+    for island in &report.islands {
+        findings.push(Finding::note(
+            FindingKind::FloatingIsland,
+            Some(island.place),
+            format!(
+                "a body of {:.3} mm³ that touches no non-design part was left out",
+                island.volume.abs()
+            ),
+        ));
+    }
+    findings.extend(label_findings(surface));
+    findings
+}
+
+fn label_findings(surface: &Surface) -> Vec<Finding> {
+    let counts = &surface.report.labels;
+    let note = |text: String| Finding::note(FindingKind::Labels, None, text);
+    let mut findings = Vec::new();
+    for (source, marked) in &counts.marked {
+        let asked_for = matches!(source, LabelSource::SecondMesh | LabelSource::Box);
+        if asked_for && *marked == 0 {
+            findings.push(note(format!("the {} marks no face as non-design", source.describe())));
+        }
+    }
+    let labels = &surface.labels;
+    if labels.non_design_specks > 0 {
+        let count = labels.non_design_specks;
+        findings.push(note(format!("{count} speck(s) of non-design label counted as design")));
+    }
+    if labels.design_specks > 0 {
+        let count = labels.design_specks;
+        findings.push(note(format!("{count} speck(s) of design label counted as non-design")));
+    }
+    findings
+}
