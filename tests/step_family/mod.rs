@@ -1,5 +1,7 @@
 //! Documents that show every kind of body, for the tests of the STEP writer.
-#![allow(dead_code)] // each test uses some of it
+#![allow(dead_code, unreachable_pub)] // each test uses some of it
+
+pub mod solids;
 
 use std::f64::consts::TAU;
 
@@ -42,9 +44,15 @@ pub fn profiles() -> Vec<(&'static str, Profile)> {
             let bore = moved(Path::rounded_rectangle(32.0, 22.0, 3.0).unwrap(), s, turn);
             (moved(Path::rounded_rectangle(40.0, 30.0, 7.0).unwrap(), s, turn), vec![bore])
         }),
-        ("i", |s, turn| (moved(Path::i_section(40.0, 24.0, 4.0, 6.0, 3.0).unwrap(), s, turn), vec![])),
-        ("channel", |s, turn| (moved(Path::channel(40.0, 20.0, 4.0, 5.0, 3.0).unwrap(), s, turn), vec![])),
-        ("angle", |s, turn| (moved(Path::angle(40.0, 30.0, 5.0, 5.0, 2.5).unwrap(), s, turn), vec![])),
+        ("i", |s, turn| {
+            (moved(Path::i_section(40.0, 24.0, 4.0, 6.0, 3.0).unwrap(), s, turn), vec![])
+        }),
+        ("channel", |s, turn| {
+            (moved(Path::channel(40.0, 20.0, 4.0, 5.0, 3.0).unwrap(), s, turn), vec![])
+        }),
+        ("angle", |s, turn| {
+            (moved(Path::angle(40.0, 30.0, 5.0, 5.0, 2.5).unwrap(), s, turn), vec![])
+        }),
         ("freeform", |s, turn| (freeform(24, s, turn), vec![])),
     ]
 }
@@ -92,10 +100,22 @@ pub fn lofts(profile: Profile) -> Vec<(&'static str, Loft)> {
     ];
     let smooth = Loft { between: Between::Smooth, ..Loft::between_stations(multi.clone()) };
     vec![
-        ("constant", Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.2), station(l, 1.0, 1.0, 0.2)])),
-        ("taper", Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.0), station(l, 0.7, 0.7, 0.0)])),
-        ("widening", Loft::between_stations(vec![station(0.0, 0.7, 0.7, 0.0), station(l, 1.0, 0.8, 0.0)])),
-        ("twist", Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.0), station(l, 0.8, 0.9, 0.6)])),
+        (
+            "constant",
+            Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.2), station(l, 1.0, 1.0, 0.2)]),
+        ),
+        (
+            "taper",
+            Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.0), station(l, 0.7, 0.7, 0.0)]),
+        ),
+        (
+            "widening",
+            Loft::between_stations(vec![station(0.0, 0.7, 0.7, 0.0), station(l, 1.0, 0.8, 0.0)]),
+        ),
+        (
+            "twist",
+            Loft::between_stations(vec![station(0.0, 1.0, 1.0, 0.0), station(l, 0.8, 0.9, 0.6)]),
+        ),
         ("multi", Loft::between_stations(multi)),
         ("smooth", smooth),
     ]
@@ -144,7 +164,10 @@ pub fn document(name: &str, parts: Vec<Part>) -> Document {
 
 /// One document per profile, with all lofts in all cuts.
 pub fn beams() -> Vec<Case> {
-    profiles().into_iter().map(|(name, profile)| Case { name, document: document(name, all(profile)) }).collect()
+    profiles()
+        .into_iter()
+        .map(|(name, profile)| Case { name, document: document(name, all(profile)) })
+        .collect()
 }
 
 fn all(profile: Profile) -> Vec<Part> {
@@ -159,4 +182,12 @@ fn all(profile: Profile) -> Vec<Part> {
         }
     }
     parts
+}
+
+/// Every document of the family.
+pub fn cases() -> Vec<Case> {
+    let mut cases = beams();
+    cases.extend([solids::solids(), solids::names(), solids::frame()]);
+    cases.extend(solids::sizes());
+    cases
 }

@@ -6,7 +6,6 @@ use super::brep::{self, Axes};
 use super::catalogue::Catalogue;
 use super::document::{Document, Group};
 use super::error::StepError;
-use super::geometry::Geometry;
 use super::part21::{Fault, Id, Text};
 use super::product::{Placed, Products};
 
@@ -85,7 +84,8 @@ impl Tree<'_, '_, '_, '_> {
     }
 
     fn placements(&mut self, group: &Group) -> Result<Vec<Id>, Fault> {
-        let mut geometry = Geometry::new(self.products.part);
+        let geometry = &mut self.products.geometry;
+        geometry.begin_product();
         group.parts.iter().map(|part| geometry.placement(&axes(&part.placement))).collect()
     }
 
@@ -104,7 +104,7 @@ impl Tree<'_, '_, '_, '_> {
         let (whole, child) = (assembly.definition, component.placed.definition);
         let origin = self.products.origin;
         let target = component.placement.unwrap_or(origin);
-        let part = &mut *self.products.part;
+        let part = self.products.part();
         let usage = part.entity(format_args!(
             "NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}',{name},'',{whole},{child},$)"
         ))?;

@@ -5,8 +5,8 @@
 //! bulging where points are unevenly spaced.  It is held exactly as it is
 //! written to the file: as a clamped cubic B-spline with simple inner knots.
 //! To keep files small, parameters are rounded to a few decimals before the
-//! spline is solved, and control points to nine digits after it: the curve
-//! passes within a billionth of its size of the given points.  What is exposed
+//! spline is solved, and control points to eight digits after it: the curve
+//! passes within 1e-8 of its size of the given points.  What is exposed
 //! here, is drawn, and is integrated is that same rounded curve.
 
 use nalgebra::{Point2, Vector2};
@@ -40,7 +40,7 @@ impl Freeform {
     /// # use nalgebra::Point2;
     /// let points = [(5.0, 0.0), (0.0, 5.0), (-5.0, 0.0), (0.0, -5.0)].map(|(x, y)| Point2::new(x, y));
     /// let curve = Freeform::through(&points)?;
-    /// assert!((curve.point(0.25) - points[1]).norm() < 1e-8);
+    /// assert!((curve.point(0.25) - points[1]).norm() < 1e-7);
     /// assert_eq!(curve.spans().count(), 4);
     /// # Ok::<(), beamwright::output::step::BodyError>(())
     /// ```
@@ -228,10 +228,10 @@ fn rounded(parameters: &[f64]) -> Vec<f64> {
     parameters.to_vec()
 }
 
-/// Decimals that leave nine digits to the largest coordinate.
+/// Decimals that leave eight digits to the largest coordinate.
 fn decimals_of(points: &[Point2<f64>]) -> i32 {
     let size = points.iter().map(|p| p.coords.amax()).fold(f64::MIN_POSITIVE, f64::max);
-    8 - size.log10().floor() as i32
+    7 - size.log10().floor() as i32
 }
 
 /// Rounds to a number of decimals, which may be negative.
@@ -265,7 +265,7 @@ mod tests {
         let points = wavy(17, 0.3);
         let curve = Freeform::through(&points).unwrap();
         for (t, p) in curve.breaks().iter().zip(&points) {
-            assert!((curve.point(*t) - p).norm() < 1e-7);
+            assert!((curve.point(*t) - p).norm() < 1e-6);
         }
     }
 
@@ -276,7 +276,7 @@ mod tests {
         let h = |i: usize| curve.breaks()[i + 1] - curve.breaks()[i];
         let end = (spans[11][3] - spans[11][2]) / h(11);
         let start = (spans[0][1] - spans[0][0]) / h(0);
-        assert!((end - start).norm() < 1e-5 * start.norm(), "{end} {start}");
+        assert!((end - start).norm() < 1e-4 * start.norm(), "{end} {start}");
     }
 
     #[test]

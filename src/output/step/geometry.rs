@@ -1,10 +1,10 @@
 //! Points, directions, curves and surfaces as STEP entities.
 //!
-//! Within one product equal points, directions and placements are written once.
-
-use std::collections::HashMap;
+//! Within one product equal points and placements are written once, within the
+//! file equal directions.
 
 use nalgebra::{Point3, UnitVector3, Vector3};
+use rustc_hash::FxHashMap;
 use truck_modeling::{KnotVec, NurbsCurve, NurbsSurface, Vector4};
 
 use super::brep::{Axes, Conic, Curve, Surface};
@@ -15,24 +15,30 @@ const NO_COMPONENT: f64 = 1e-15;
 
 type Key = [u64; 3];
 
-/// Writes the geometry of one product.
+/// Writes geometry, product by product.
 pub(super) struct Geometry<'w, 'a> {
     pub(super) part: &'w mut Part21<'a>,
-    points: HashMap<Key, Id>,
-    directions: HashMap<Key, Id>,
-    vectors: HashMap<Id, Id>,
-    placements: HashMap<[Id; 3], Id>,
+    points: FxHashMap<Key, Id>,
+    directions: FxHashMap<Key, Id>,
+    vectors: FxHashMap<Id, Id>,
+    placements: FxHashMap<[Id; 3], Id>,
 }
 
 impl<'w, 'a> Geometry<'w, 'a> {
     pub(super) fn new(part: &'w mut Part21<'a>) -> Self {
         Self {
             part,
-            points: HashMap::new(),
-            directions: HashMap::new(),
-            vectors: HashMap::new(),
-            placements: HashMap::new(),
+            points: FxHashMap::default(),
+            directions: FxHashMap::default(),
+            vectors: FxHashMap::default(),
+            placements: FxHashMap::default(),
         }
+    }
+
+    /// Forgets the points of the product before, which are not to be shared.
+    pub(super) fn begin_product(&mut self) {
+        self.points.clear();
+        self.placements.clear();
     }
 
     pub(super) fn point(&mut self, p: &Point3<f64>) -> Result<Id, Fault> {

@@ -2,6 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use nalgebra::{Point3, Vector3};
+
 use super::brep::{Axes, Solid};
 use super::catalogue::Product;
 use super::context::Context;
@@ -21,7 +23,7 @@ pub(super) struct Placed {
 
 /// Writes products, and remembers what they share.
 pub(super) struct Products<'w, 'a> {
-    pub(super) part: &'w mut Part21<'a>,
+    pub(super) geometry: Geometry<'w, 'a>,
     context: Context,
     /// The placement at the origin; every representation has it.
     pub(super) origin: Id,
@@ -36,11 +38,11 @@ pub(super) struct Products<'w, 'a> {
 
 impl<'w, 'a> Products<'w, 'a> {
     pub(super) fn new(part: &'w mut Part21<'a>, context: Context) -> Result<Self, Fault> {
-        let axes =
-            Axes::about(nalgebra::Point3::origin(), nalgebra::Vector3::z(), nalgebra::Vector3::x());
-        let origin = Geometry::new(part).placement(&axes)?;
+        let axes = Axes::about(Point3::origin(), Vector3::z(), Vector3::x());
+        let mut geometry = Geometry::new(part);
+        let origin = geometry.placement(&axes)?;
         Ok(Self {
-            part,
+            geometry,
             context,
             origin,
             names: HashSet::new(),
@@ -52,20 +54,23 @@ impl<'w, 'a> Products<'w, 'a> {
         })
     }
 
+    pub(super) fn part(&mut self) -> &mut Part21<'a> {
+        self.geometry.part
+    }
+
     /// Writes a product with a solid in it.
     pub(super) fn leaf(&mut self, product: &Product<'_>, solid: &Solid) -> Result<Placed, Fault> {
-        let brep = {
-            let mut geometry = Geometry::new(self.part);
-            Topology::new(&mut geometry).solid(solid)?
-        };
+        self.geometry.begin_product();
+        let brep = Topology::new(&mut self.geometry).solid(solid)?;
         let (origin, context) = (self.origin, self.context.geometry);
-        let shape = self.part.entity(format_args!(
+        let shape = self.part().entity(format_args!(
             "ADVANCED_BREP_SHAPE_REPRESENTATION('',({origin},{brep}),{context})"
         ))?;
         let (placed, whole) = self.product(&product.part.product, shape)?;
         self.validation(whole, product.volume)?;
         let style = self.style(product.part.colour)?;
-        self.styled.push(self.part.entity(format_args!("STYLED_ITEM('',({style}),{brep})"))?);
+        let styled = self.part().entity(format_args!("STYLED_ITEM('',({style}),{brep})"))?;
+        self.styled.push(styled);
         for property in &product.part.properties {
             self.property(placed.definition, property)?;
         }
@@ -77,7 +82,8 @@ impl<'w, 'a> Products<'w, 'a> {
         let items: Vec<Id> =
             std::iter::once(self.origin).chain(placements.iter().copied()).collect();
         let (items, context) = (List(&items), self.context.geometry);
-        let shape = self.part.entity(format_args!("SHAPE_REPRESENTATION('',{items},{context})"))?;
+        let shape =
+            self.part().entity(format_args!("SHAPE_REPRESENTATION('',{items},{context})"))?;
         Ok(self.product(name, shape)?.0)
     }
 
@@ -85,7 +91,7 @@ impl<'w, 'a> Products<'w, 'a> {
     fn validation(&mut self, whole: Id, volume: f64) -> Result<(), Fault> {
         let (unit, volume, context) =
             (self.power("VOLUME", 3.0)?, Real(volume), self.context.geometry);
-        let part = &mut *self.part;
+        let part = self.part();
         let property = part.entity(format_args!(
             "PROPERTY_DEFINITION('geometric validation property','',{whole})"
         ))?;
@@ -104,14 +110,15 @@ impl<'w, 'a> Products<'w, 'a> {
         let id = self.unique(name);
         let Context { product: context, definition: stage, .. } = self.context;
         let (id, name) = (Text(&id), Text(name));
-        let product = self.part.entity(format_args!("PRODUCT({id},{name},'',({context}))"))?;
+        let product = self.part().entity(format_args!("PRODUCT({id},{name},'',({context}))"))?;
         let version =
-            self.part.entity(format_args!("PRODUCT_DEFINITION_FORMATION('','',{product})"))?;
-        let definition =
-            self.part.entity(format_args!("PRODUCT_DEFINITION('design','',{version},{stage})"))?;
+            self.part().entity(format_args!("PRODUCT_DEFINITION_FORMATION('','',{product})"))?;
+        let definition = self
+            .part()
+            .entity(format_args!("PRODUCT_DEFINITION('design','',{version},{stage})"))?;
         let whole =
-            self.part.entity(format_args!("PRODUCT_DEFINITION_SHAPE('','',{definition})"))?;
-        self.part.entity(format_args!("SHAPE_DEFINITION_REPRESENTATION({whole},{shape})"))?;
+            self.part().entity(format_args!("PRODUCT_DEFINITION_SHAPE('','',{definition})"))?;
+        self.part().entity(format_args!("SHAPE_DEFINITION_REPRESENTATION({whole},{shape})"))?;
         self.products.push(product);
         Ok((Placed { definition, shape }, whole))
     }
@@ -133,13 +140,13 @@ impl<'w, 'a> Products<'w, 'a> {
             return Ok(*id);
         }
         let [r, g, b] = colour.map(|c| Real(f64::from(c) / 255.0));
-        let rgb = self.part.entity(format_args!("COLOUR_RGB('',{r},{g},{b})"))?;
-        let fill = self.part.entity(format_args!("FILL_AREA_STYLE_COLOUR('',{rgb})"))?;
-        let fill = self.part.entity(format_args!("FILL_AREA_STYLE('',({fill}))"))?;
-        let fill = self.part.entity(format_args!("SURFACE_STYLE_FILL_AREA({fill})"))?;
-        let side = self.part.entity(format_args!("SURFACE_SIDE_STYLE('',({fill}))"))?;
-        let usage = self.part.entity(format_args!("SURFACE_STYLE_USAGE(.BOTH.,{side})"))?;
-        let style = self.part.entity(format_args!("PRESENTATION_STYLE_ASSIGNMENT(({usage}))"))?;
+        let rgb = self.part().entity(format_args!("COLOUR_RGB('',{r},{g},{b})"))?;
+        let fill = self.part().entity(format_args!("FILL_AREA_STYLE_COLOUR('',{rgb})"))?;
+        let fill = self.part().entity(format_args!("FILL_AREA_STYLE('',({fill}))"))?;
+        let fill = self.part().entity(format_args!("SURFACE_STYLE_FILL_AREA({fill})"))?;
+        let side = self.part().entity(format_args!("SURFACE_SIDE_STYLE('',({fill}))"))?;
+        let usage = self.part().entity(format_args!("SURFACE_STYLE_USAGE(.BOTH.,{side})"))?;
+        let style = self.part().entity(format_args!("PRESENTATION_STYLE_ASSIGNMENT(({usage}))"))?;
         self.styles.insert(colour, style);
         Ok(style)
     }
@@ -154,7 +161,7 @@ impl<'w, 'a> Products<'w, 'a> {
         let item = self.once(item)?;
         let context = self.context.geometry;
         let value = self.once(format!("REPRESENTATION({name},({item}),{context})"))?;
-        let part = &mut *self.part;
+        let part = self.part();
         let own = part.entity(format_args!("PROPERTY_DEFINITION({name},'',{definition})"))?;
         part.entity(format_args!("GENERAL_PROPERTY_ASSOCIATION('','',{general},{own})"))?;
         part.entity(format_args!("PROPERTY_DEFINITION_REPRESENTATION({own},{value})"))?;
@@ -188,8 +195,8 @@ impl<'w, 'a> Products<'w, 'a> {
         }
         let (millimetre, exponent) = (self.context.millimetre, Real(exponent));
         let element =
-            self.part.entity(format_args!("DERIVED_UNIT_ELEMENT({millimetre},{exponent})"))?;
-        let unit = self.part.entity(format_args!("DERIVED_UNIT(({element}))"))?;
+            self.part().entity(format_args!("DERIVED_UNIT_ELEMENT({millimetre},{exponent})"))?;
+        let unit = self.part().entity(format_args!("DERIVED_UNIT(({element}))"))?;
         self.units.insert(name, unit);
         Ok(unit)
     }
@@ -213,18 +220,21 @@ impl<'w, 'a> Products<'w, 'a> {
         if let Some(id) = self.shared.get(&entity) {
             return Ok(*id);
         }
-        let id = self.part.entity(format_args!("{entity}"))?;
+        let id = self.part().entity(format_args!("{entity}"))?;
         self.shared.insert(entity, id);
         Ok(id)
     }
 
     /// Writes what lists all products and all colours.
-    pub(super) fn finish(self) -> Result<(), Fault> {
-        let (products, styled, context) = (&self.products, &self.styled, self.context.geometry);
-        let products = List(products);
-        self.part.entity(format_args!("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,{products})"))?;
-        let styled = List(styled);
-        self.part.entity(format_args!(
+    pub(super) fn finish(mut self) -> Result<(), Fault> {
+        let context = self.context.geometry;
+        let (products, styled) =
+            (std::mem::take(&mut self.products), std::mem::take(&mut self.styled));
+        let products = List(&products);
+        self.part()
+            .entity(format_args!("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,{products})"))?;
+        let styled = List(&styled);
+        self.part().entity(format_args!(
             "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{styled},{context})"
         ))?;
         Ok(())

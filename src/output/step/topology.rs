@@ -1,8 +1,7 @@
 //! Solids as STEP entities: shells, faces, loops, edges, vertices.
 
-use std::collections::HashMap;
-
 use nalgebra::Point3;
+use rustc_hash::FxHashMap;
 use truck_topology::{EdgeID, VertexID};
 
 use super::brep::{Curve, Edge, Face, Shell, Solid, Surface, Vertex, Wire};
@@ -12,13 +11,13 @@ use super::part21::{Fault, Flag, Id, List};
 /// Writes the solid of one product.
 pub(super) struct Topology<'g, 'w, 'a> {
     geometry: &'g mut Geometry<'w, 'a>,
-    vertices: HashMap<VertexID<Point3<f64>>, Id>,
-    edges: HashMap<EdgeID<Curve>, Id>,
+    vertices: FxHashMap<VertexID<Point3<f64>>, Id>,
+    edges: FxHashMap<EdgeID<Curve>, Id>,
 }
 
 impl<'g, 'w, 'a> Topology<'g, 'w, 'a> {
     pub(super) fn new(geometry: &'g mut Geometry<'w, 'a>) -> Self {
-        Self { geometry, vertices: HashMap::new(), edges: HashMap::new() }
+        Self { geometry, vertices: FxHashMap::default(), edges: FxHashMap::default() }
     }
 
     /// Writes the solid; its first shell is the outer one.

@@ -12,7 +12,7 @@
 //! ring of one closed piece has no uprights; its side face has two boundaries
 //! and a seam.
 
-use nalgebra::{Point3, UnitVector3, Vector3};
+use nalgebra::{Point3, UnitVector3, Vector2, Vector3};
 use truck_modeling::{BSplineCurve, BSplineSurface, KnotVec, NurbsCurve, NurbsSurface, Vector4};
 
 use super::curve::{lifted, lifted_nurbs};
@@ -48,14 +48,13 @@ pub(super) fn solid(levels: &Levels) -> Result<Solid, BodyError> {
     solid_of(vec![faces.into()])
 }
 
-/// The plane end of a loft.
+/// The plane end of a loft; its surface faces up at both ends.
 fn cap(levels: &Levels, k: usize, wires: Vec<Wire>) -> Result<Face, BodyError> {
     let level = &levels.planes[k];
     let up = Vector3::new(-level.slope.x, -level.slope.y, 1.0);
-    let normal = if k == 0 { -up } else { up };
     let origin = Point3::new(0.0, 0.0, level.height);
-    let axes = Axes::about(origin, normal, level.lift_vector(&Vector3::x().xy()));
-    face(wires, Skin { surface: Surface::Plane(axes), seam: None }, true)
+    let axes = Axes::about(origin, up, level.lift_vector(&Vector2::x()));
+    face(wires, Skin { surface: Surface::Plane(axes), seam: None }, k > 0)
 }
 
 /// How the control points of a smooth loft follow from those of its stations:

@@ -1,0 +1,172 @@
+//! Size and time of 1,000 beams, beside the same beams from truck-stepio.
+//!
+//! Run with `cargo test --release --test step_speed -- --ignored --nocapture`.
+//! With `BEAMWRIGHT_STEP_OUT` set to a folder the files stay there, and
+//! `tests/occt/time_read.py FOLDER` tells how long OCCT takes to read them.
+
+mod step_family;
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use beamwright::output::step::{self, Body, Document, Loft, Outline, Part, Path, Property, Value};
+use nalgebra::{Isometry3, Vector2, Vector3};
+use step_family::{document, freeform};
+
+const COUNT: usize = 1000;
+
+/// 1,000 beams, all of different length, each with its place.
+fn beams(name: &'static str, section: impl Fn() -> (Outline, Vec<Outline>)) -> Document {
+    let (outer, holes) = section();
+    let beam = |i: usize| {
+        let length = 100.0 + i as f64 / 7.0;
+        Part {
+            name: format!("B{i:04} {name}"),
+            product: format!("{name} L={length:.1} mm"),
+            colour: [70, 130, 180],
+            placement: place(i),
+            body: Body::Loft(Loft::prism(outer.clone(), holes.clone(), length)),
+            properties: vec![],
+        }
+    };
+    document(name, (0..COUNT).map(beam).collect())
+}
+
+fn place(i: usize) -> Isometry3<f64> {
+    let (row, column) = ((i / 32) as f64, (i % 32) as f64);
+    Isometry3::new(
+        Vector3::new(50.0 * row, 50.0 * column, 0.0),
+        Vector3::new(0.01 * row, 0.02 * column, 0.0),
+    )
+}
+
+fn kinds() -> Vec<Document> {
+    let solid = |outer: Outline| (outer, vec![]);
+    let rectangle = || Outline::Path(Path::rectangle(12.0, 8.0).unwrap());
+    let rounded = |w, h, r| Outline::Path(Path::rounded_rectangle(w, h, r).unwrap());
+    vec![
+        beams("round", || solid(Outline::circle(5.0))),
+        beams("tube", || (Outline::circle(5.0), vec![Outline::circle(4.0)])),
+        beams("rectangle", || solid(rectangle())),
+        beams("box", || (rounded(12.0, 8.0, 1.5), vec![rounded(10.0, 6.0, 0.5)])),
+        beams("ellipse", || solid(Outline::ellipse(6.0, 4.0))),
+        beams("ipe", || solid(Outline::Path(Path::i_section(20.0, 10.0, 0.6, 0.9, 1.2).unwrap()))),
+        beams("freeform64", || solid(freeform(64, Vector2::new(0.5, 0.5), 0.0))),
+    ]
+}
+
+/// Round beams with mitres at both ends and eight properties each.
+fn furnished() -> Document {
+    let mut document = beams("furnished", || (Outline::circle(5.0), vec![]));
+    for (i, part) in document.groups[0].parts.iter_mut().enumerate() {
+        if let Body::Loft(loft) = &mut part.body {
+            let tilt = (i as f64 * 0.37).sin();
+            *loft = loft.clone().cut(Vector3::new(tilt, 0.2, 1.0), Vector3::new(0.1, -tilt, 1.0));
+        }
+        part.properties = vec![
+            Property::text("profile", "round 10"),
+            Property::new("length", Value::Length(100.0 + i as f64)),
+            Property::new("area", Value::Area(78.5398)),
+            Property::new("mass", Value::Mass(0.1 + i as f64 * 1e-3)),
+            Property::new("branch", Value::Count(i as i32)),
+            Property::new("area error", Value::Number(i as f64 * 1e-5)),
+            Property::new("inertia error", Value::Number(i as f64 * -1e-5)),
+            Property::new("twist", Value::Degrees(i as f64 * 0.1)),
+        ];
+    }
+    document
+}
+
+#[test]
+#[ignore = "a measurement, for a release build"]
+fn thousand_beams_are_written_in_a_blink() {
+    let folder = std::env::var_os("BEAMWRIGHT_STEP_OUT").map(PathBuf::from);
+    let save = |name: &str, text: &[u8]| {
+        if let Some(folder) = &folder {
+            std::fs::create_dir_all(folder).unwrap();
+            std::fs::write(folder.join(name), text).unwrap();
+        }
+    };
+    for document in kinds().into_iter().chain([furnished()]) {
+        let (text, time) = best_of_five(|| {
+            let mut text = Vec::new();
+            step::write(&document, &mut text).unwrap();
+            text
+        });
+        report(&document.name, text.len(), time);
+        save(&format!("{}.step", document.name), &text);
+    }
+    for (name, solid) in [("round", truck::round as fn(f64) -> _), ("rectangle", truck::rectangle)]
+    {
+        let (text, time) = best_of_five(|| truck::file(solid).into_bytes());
+        report(&format!("{name} by truck-stepio"), text.len(), time);
+        save(&format!("truck_{name}.step"), &text);
+    }
+}
+
+fn report(name: &str, bytes: usize, time: Duration) {
+    println!("{name:28} {:6.2} MB {:7.1} ms", bytes as f64 / 1e6, time.as_secs_f64() * 1e3);
+}
+
+fn best_of_five(run: impl Fn() -> Vec<u8>) -> (Vec<u8>, Duration) {
+    let timed = || {
+        let start = Instant::now();
+        let text = run();
+        (text, start.elapsed())
+    };
+    (0..5).map(|_| timed()).min_by_key(|(_, time)| *time).unwrap()
+}
+
+/// The same beams as truck models and truck-stepio writes them.
+mod truck {
+    use truck_modeling::{EuclideanSpace, Matrix4, Point3, Shell, Solid, Vector4, Wire, builder};
+    use truck_stepio::out::{CompleteStepDisplay, StepHeaderDescriptor, StepModels};
+
+    use super::{COUNT, place};
+
+    pub(super) fn file(solid: impl Fn(f64) -> Solid) -> String {
+        let placed = |i: usize| {
+            let matrix = place(i).to_homogeneous();
+            let column = |j: usize| {
+                Vector4::new(matrix[(0, j)], matrix[(1, j)], matrix[(2, j)], matrix[(3, j)])
+            };
+            let matrix = Matrix4::from_cols(column(0), column(1), column(2), column(3));
+            builder::transformed(&solid(100.0 + i as f64 / 7.0), matrix).compress()
+        };
+        let solids: Vec<_> = (0..COUNT).map(placed).collect();
+        let header = StepHeaderDescriptor { time_stamp: String::new(), ..Default::default() };
+        CompleteStepDisplay::new(StepModels::from_iter(&solids), header).to_string()
+    }
+
+    pub(super) fn round(length: f64) -> Solid {
+        loft(
+            |z| {
+                let ends = [-5.0, 5.0].map(|x| builder::vertex(Point3::new(x, 0.0, z)));
+                let arc = |from: usize, to: usize, y: f64| {
+                    builder::circle_arc(&ends[from], &ends[to], Point3::new(0.0, y, z))
+                };
+                vec![arc(0, 1, -5.0), arc(1, 0, 5.0)].into()
+            },
+            length,
+        )
+    }
+
+    pub(super) fn rectangle(length: f64) -> Solid {
+        loft(
+            |z| {
+                let corners = [(-6.0, -4.0), (6.0, -4.0), (6.0, 4.0), (-6.0, 4.0)]
+                    .map(|(x, y)| builder::vertex(Point3::new(x, y, z)));
+                (0..4).map(|i| builder::line(&corners[i], &corners[(i + 1) % 4])).collect()
+            },
+            length,
+        )
+    }
+
+    fn loft(ring: impl Fn(f64) -> Wire, length: f64) -> Solid {
+        let (lower, upper) = (ring(Point3::origin().z), ring(length));
+        let mut shell: Shell = builder::try_wire_homotopy(&lower, &upper).unwrap();
+        shell.push(builder::try_attach_plane(&[lower.inverse()]).unwrap());
+        shell.push(builder::try_attach_plane(&[upper]).unwrap());
+        Solid::try_new(vec![shell]).unwrap()
+    }
+}
