@@ -44,6 +44,24 @@ pub(super) fn split<'b>(
     if !bytes.starts_with(b"glTF") {
         return Ok((bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None));
     }
+    let found = match gltf::Glb::from_slice(check_glb_header(bytes, path)?) {
+        Ok(gltf::Glb { json: Cow::Borrowed(json), bin: None, .. }) => return Ok((json, None)),
+        Ok(gltf::Glb { json: Cow::Borrowed(json), bin: Some(Cow::Borrowed(blob)), .. }) => {
+            return Ok((json, Some(blob)));
+        }
+        Ok(_) => "none".to_owned(),
+        Err(gltf::Error::Binary(GlbError::ChunkLength { length, length_read, .. })) => {
+            format!("a chunk of {length} bytes where {length_read} are left")
+        }
+        Err(error) => error.to_string(),
+    };
+    Err(wrong_glb(12, "a JSON chunk and then a BIN chunk", found, path))
+}
+
+/// The part of a GLB file that its header announces.
+///
+/// The `gltf` crate subtracts from the length in the header without a look at it.
+fn check_glb_header<'b>(bytes: &'b [u8], path: &Path) -> Result<&'b [u8], ReadError> {
     let word = |at: usize| {
         let bytes = bytes.get(at..at + 4)?;
         Some(u32::from_le_bytes(bytes.try_into().ok()?))
@@ -63,32 +81,21 @@ pub(super) fn split<'b>(
             advice: "export it as glTF 2.0",
         });
     }
-    let Some(glb) = bytes.get(..length as usize) else {
-        return Err(cut_off(format!("the {length} bytes that its header announces")));
-    };
-    let wrong = |byte, expected: &str, found: String| ReadError::Malformed {
+    match bytes.get(..length as usize) {
+        None => Err(cut_off(format!("the {length} bytes that its header announces"))),
+        Some(glb) if glb.len() < GLB_HEADER => {
+            Err(wrong_glb(8, "the length of the file", length.to_string(), path))
+        }
+        Some(glb) => Ok(glb),
+    }
+}
+
+fn wrong_glb(byte: u64, expected: &str, found: String, path: &Path) -> ReadError {
+    ReadError::Malformed {
         path: path.to_owned(),
         place: Place::Byte(byte),
         expected: expected.to_owned(),
         found,
-    };
-    if glb.len() < GLB_HEADER {
-        return Err(wrong(8, "the length of the file", length.to_string()));
-    }
-    match gltf::Glb::from_slice(glb) {
-        Ok(gltf::Glb { json: Cow::Borrowed(json), bin, .. }) => {
-            let blob = bin.and_then(|bin| match bin {
-                Cow::Borrowed(blob) => Some(blob),
-                Cow::Owned(_) => None,
-            });
-            Ok((json, blob))
-        }
-        Err(gltf::Error::Binary(GlbError::ChunkLength { length, length_read, .. })) => {
-            let expected = format!("a chunk of at most {length_read} bytes");
-            Err(wrong(12, &expected, format!("one of {length}")))
-        }
-        Err(error) => Err(wrong(12, "a JSON chunk and then a BIN chunk", error.to_string())),
-        Ok(_) => Err(wrong(12, "a JSON chunk", "none".to_owned())),
     }
 }
 
@@ -219,8 +226,8 @@ fn check_position_accessors(root: &Root, path: &Path) -> Result<(), ReadError> {
 
 fn matters(part: &str, error: Invalid) -> bool {
     let is_used = USED_PARTS.iter().any(|used| part.starts_with(used));
-    // Many programs leave these out, and nothing here needs them.
-    let is_bound = part.ends_with(".min") || part.ends_with(".max");
+    // Many programs leave these out or get them wrong, and nothing here needs them.
+    let is_bound = [".min", ".max", ".target"].iter().any(|end| part.ends_with(end));
     // Attributes of an application's own.
     let is_own_attribute = error == Invalid::Invalid && part.contains(".attributes[\"<");
     is_used && !is_bound && !is_own_attribute

@@ -237,18 +237,8 @@ impl<'a> Emitter<'a> {
                     range: format!("points are numbered from 0 to {}", points.count - 1),
                 });
             }
-            let is_complete = match mode {
-                Mode::Triangles => count % 3 == 2,
-                _ => count >= 2,
-            };
-            if is_complete {
-                // Every second triangle of a strip goes the other way round.
-                let turned = mode == Mode::TriangleStrip && count % 2 == 1;
-                let triangle = if flip != turned { [b, a, c] } else { [a, b, c] };
-                // Strips are sewn together by triangles without area.
-                if mode == Mode::Triangles || (a != b && b != c && c != a) {
-                    self.triangle(triangle.map(|corner| points.first + corner))?;
-                }
+            if let Some(triangle) = completed_triangle(mode, count, flip, [a, b, c]) {
+                self.triangle(triangle.map(|corner| points.first + corner))?;
             }
             match mode {
                 Mode::TriangleFan if count == 0 => a = c,
@@ -288,4 +278,22 @@ impl<'a> Emitter<'a> {
         self.names.move_to(&mut mesh.carriers);
         Ok(mesh)
     }
+}
+
+/// The triangle that is complete with its last corner, `number` in the run of all corners.
+#[inline]
+fn completed_triangle(
+    mode: Mode,
+    number: usize,
+    flip: bool,
+    [a, b, c]: [u32; 3],
+) -> Option<[u32; 3]> {
+    let is_complete = match mode {
+        Mode::Triangles => number % 3 == 2,
+        // Strips are sewn together by triangles without area.
+        _ => number >= 2 && a != b && b != c && c != a,
+    };
+    // Every second triangle of a strip goes the other way round.
+    let is_turned = flip != (mode == Mode::TriangleStrip && number % 2 == 1);
+    is_complete.then_some(if is_turned { [b, a, c] } else { [a, b, c] })
 }

@@ -140,7 +140,8 @@ pub(super) fn read(input: &mut Input<'_>) -> Result<Header, ReadError> {
     let path = input.path();
     let ends_in_cr = begins_with_cr_line(input)?;
     let lines = read_lines(input, ends_in_cr)?;
-    let (text, names) = put_slots(&lines, path)?;
+    check_declared_once(&lines, path)?;
+    let (text, names) = put_slots(&lines);
 
     let parser = Parser::<Skipped>::new();
     let mut reader = Reader::new(Cursor::new(text.as_bytes()));
@@ -216,45 +217,61 @@ struct Names {
     label: Option<String>,
 }
 
+/// Makes sure that no element, and no property of an element, is declared twice.
+fn check_declared_once(lines: &[HeaderLine], path: &Path) -> Result<(), ReadError> {
+    let mut elements = HashSet::new();
+    let mut properties = HashSet::new();
+    for line in lines {
+        let is_new = match &line.words[..] {
+            [element, name, ..] if element == "element" => {
+                properties.clear();
+                elements.insert(name)
+            }
+            [property, .., name] if property == "property" => properties.insert(name),
+            _ => true,
+        };
+        if !is_new {
+            return Err(ReadError::Malformed {
+                path: path.to_owned(),
+                place: Place::Line(line.number),
+                expected: "each element and each of its properties to be declared once".to_owned(),
+                found: format!("{} again", quote(line.words.join(" "))),
+            });
+        }
+    }
+    Ok(())
+}
+
 /// The header as text for `ply-rs-bw`, with slots in place of names.
-fn put_slots(lines: &[HeaderLine], path: &Path) -> Result<(String, Names), ReadError> {
+fn put_slots(lines: &[HeaderLine]) -> (String, Names) {
     let label_line = find_label(lines);
     let mut names = Names { elements: Vec::new(), label: None };
     let mut text = String::new();
+    let mut kind = ElementKind::Other;
     let mut taken = HashSet::new();
-    let mut slots = HashSet::new();
     for (number, line) in lines.iter().enumerate() {
         let mut words: Vec<&str> = line.words.iter().map(String::as_str).collect();
-        let kind =
-            names.elements.last().map_or(ElementKind::Other, |(name, _)| ElementKind::of(name));
         let new_name;
         match &mut words[..] {
             ["element", name, _] => {
-                if names.elements.iter().any(|(other, _)| other == name) {
-                    return Err(line.declared_twice(path));
-                }
                 names.elements.push(((*name).to_owned(), line.number));
+                kind = ElementKind::of(name);
                 taken.clear();
-                slots.clear();
                 new_name = format!("e{number}");
                 *name = &new_name;
             }
             ["property", middle @ .., name] => {
-                if !taken.insert((*name).to_owned()) {
-                    return Err(line.declared_twice(path));
-                }
-                let mut slot = match property_type(middle) {
-                    Some(_) if label_line == Some(number) => Slot::Label,
+                let slot = match property_type(middle) {
+                    Some(_) if label_line == Some(number) => {
+                        names.label = Some((*name).to_owned());
+                        Slot::Label
+                    }
                     Some(property) => Slot::of(kind, name, &property),
                     None => Slot::Unused,
                 };
-                if slot == Slot::Label {
-                    names.label = Some((*name).to_owned());
-                }
-                if slot != Slot::Unused && !slots.insert(slot.name(0)) {
-                    slot = Slot::Unused;
-                }
-                new_name = slot.name(number);
+                // `red` and `diffuse_red` may both be there: the first counts.
+                let is_first = taken.insert(slot.name(number));
+                new_name = if is_first { slot } else { Slot::Unused }.name(number);
                 *name = &new_name;
             }
             _ => {}
@@ -263,7 +280,7 @@ fn put_slots(lines: &[HeaderLine], path: &Path) -> Result<(String, Names), ReadE
         text.push('\n');
     }
     text.push_str("end_header\n");
-    Ok((text, names))
+    (text, names)
 }
 
 /// The line of the integer property of the faces that is carried as names.
@@ -288,15 +305,4 @@ fn find_label(lines: &[HeaderLine]) -> Option<usize> {
     let named = |label: &&str| candidates.iter().find(|(_, name)| name == label);
     let preferred = LABEL_NAMES.iter().find_map(named);
     preferred.or(candidates.first()).map(|(number, _)| *number)
-}
-
-impl HeaderLine {
-    fn declared_twice(&self, path: &Path) -> ReadError {
-        ReadError::Malformed {
-            path: path.to_owned(),
-            place: Place::Line(self.number),
-            expected: "each element and each of its properties to be declared once".to_owned(),
-            found: format!("{} again", quote(self.words.join(" "))),
-        }
-    }
 }
