@@ -1,6 +1,8 @@
 //! Sections.
+pub mod catalogue;
 pub mod error;
 pub mod freeform;
+pub mod matching;
 pub mod outline;
 mod piece;
 pub mod profile;
@@ -8,7 +10,9 @@ pub mod properties;
 mod rays;
 pub mod torsion;
 
+pub use catalogue::Catalogue;
 pub use error::SectionError;
+pub use matching::{MatchMode, MatchTarget, Matched, ProfileChoice, match_profile};
 pub use outline::{Outline, Path, Region, Segment};
 pub use profile::{Designation, Moduli, Profile, Shape};
 pub use properties::{Contours, SectionProperties};
