@@ -5,6 +5,8 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::contour::Plane;
+
 /// Triangles in one leaf: below four the boxes cost more than they save.
 const LEAF: usize = 4;
 
@@ -183,6 +185,12 @@ impl TriangleTree {
         best.map(|(q, d, f)| (q, d.sqrt(), f))
     }
 
+    /// Calls `visit` for the triangles near a plane, in no particular order: all that it cuts, and
+    /// some that it only passes by.
+    pub fn visit_plane(&self, plane: &Plane, visit: impl FnMut(u32)) {
+        self.visit_leaves(|node| node.may_meet(plane), visit);
+    }
+
     fn visit_leaves(&self, meets: impl Fn(&TreeNode) -> bool, mut visit: impl FnMut(u32)) {
         let mut i = 0;
         let mut stack: [u32; 64] = [0; 64];
@@ -221,6 +229,21 @@ fn widest_axis(faces: &[u32], centres: &[[f32; 3]]) -> usize {
 }
 
 impl TreeNode {
+    /// Whether the lowest and highest corner of the box lie on both sides of the plane.
+    fn may_meet(&self, plane: &Plane) -> bool {
+        let (mut low, mut high, mut size) = (0.0, 0.0, 0.0f64);
+        for k in 0..3 {
+            let height = |x: f32| (f64::from(x) - plane.point[k]) * plane.normal[k];
+            let (a, b) = (height(self.low[k]), height(self.high[k]));
+            low += a.min(b);
+            high += a.max(b);
+            size += a.abs().max(b.abs());
+        }
+        // A triangle that the plane just touches must not be lost to rounding.
+        let slack = 1e-12 * size;
+        low <= slack && high >= -slack
+    }
+
     fn distance_squared(&self, p: &Point3<f64>) -> f64 {
         (0..3)
             .map(|k| {
