@@ -219,10 +219,11 @@ mod tests {
 
     #[test]
     fn a_ray_between_two_crossings_ends_on_their_chord() {
-        let square = [[1., 1.], [-1., 1.], [-1., -1.], [1., -1.]].map(Vector2::from);
+        let square: [Vector2<f64>; 4] =
+            [[1., 1.], [-1., 1.], [-1., -1.], [1., -1.]].map(Vector2::from);
         let lengths = polar(&square);
         // Interpolation by angle: 40 of the 90 degrees, not where the ray meets the chord.
-        let expected = Vector2::new(1.0 - 2.0 * 4.0 / 9.0, 1.0).norm();
+        let expected: f64 = Vector2::new(1.0f64 - 2.0 * 4.0 / 9.0, 1.0).norm();
         assert!((lengths[4] - expected).abs() < 1e-12);
     }
 }
