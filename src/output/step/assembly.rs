@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::brep::{self, Axes};
+use super::brep::Axes;
 use super::catalogue::Catalogue;
 use super::document::{Document, Group};
 use super::error::StepError;
@@ -17,10 +17,8 @@ pub(super) fn write_tree(
 ) -> Result<(), StepError> {
     let mut tree = Tree { products, occurrences: 0, next_part: 0, catalogue, written: Vec::new() };
     for product in &catalogue.products {
-        let name = || product.part.name.clone();
-        let solid = brep::solid(&product.part.body)
-            .map_err(|fault| StepError::Body { part: name(), fault })?;
-        let placed = tree.products.leaf(product, &solid).map_err(|fault| fault.of(name()))?;
+        let placed = tree.products.leaf(product);
+        let placed = placed.map_err(|fault| fault.of(product.part.name.clone()))?;
         tree.written.push(placed);
     }
     tree.root(document).map_err(|fault| fault.of(document.name.clone()))

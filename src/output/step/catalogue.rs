@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::body::Body;
+use super::brep::{self, Solid};
 use super::document::{Document, Group, Part};
 use super::error::StepError;
 
@@ -20,10 +21,11 @@ pub(super) struct Catalogue<'d> {
 pub(super) struct Product<'d> {
     pub(super) part: &'d Part,
     pub(super) volume: f64,
+    pub(super) solid: Solid,
 }
 
 /// Parts of one product agree in these; the rest is compared one by one.
-type Key<'d> = (&'d str, [u8; 3], u64);
+type Key<'d> = (&'d str, [u8; 3]);
 
 impl<'d> Catalogue<'d> {
     /// Checks all parts and finds the distinct ones among them.
@@ -56,18 +58,19 @@ impl<'d> Catalogue<'d> {
         alike: &mut HashMap<Key<'d>, Vec<usize>>,
     ) -> Result<(), StepError> {
         check_numbers(part)?;
-        let volume = part
-            .body
-            .volume()
-            .map_err(|fault| StepError::Body { part: part.name.clone(), fault })?;
         self.reach = self.reach.max(reach(&part.body) + part.placement.translation.vector.amax());
-        let same = alike.entry((&part.product, part.colour, volume.to_bits())).or_default();
+        let same = alike.entry((&part.product, part.colour)).or_default();
         let known = same.iter().copied().find(|&i| is_same_product(self.products[i].part, part));
-        let product = known.unwrap_or_else(|| {
-            same.push(self.products.len());
-            self.products.push(Product { part, volume });
-            self.products.len() - 1
-        });
+        let product = match known {
+            Some(product) => product,
+            None => {
+                let (volume, solid) = brep::build(&part.body)
+                    .map_err(|fault| StepError::Body { part: part.name.clone(), fault })?;
+                same.push(self.products.len());
+                self.products.push(Product { part, volume, solid });
+                self.products.len() - 1
+            }
+        };
         self.of_part.push(product);
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! The smooth pieces an outline consists of: line, elliptic arc, closed spline.
 
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Point2, Vector2};
 
@@ -42,6 +42,11 @@ pub(super) type Sample = (Point2<f64>, Vector2<f64>);
 impl Arc {
     pub(super) fn at(&self, theta: f64) -> Sample {
         let (sin, cos) = theta.sin_cos();
+        self.toward(cos, sin)
+    }
+
+    /// The point at an angle given by its cosine and sine.
+    fn toward(&self, cos: f64, sin: f64) -> Sample {
         (self.centre + self.p * cos + self.q * sin, self.q * cos - self.p * sin)
     }
 
@@ -106,6 +111,9 @@ impl Piece {
         };
         match self {
             Self::Line { .. } => times(&gauss::SIXTEEN, 1, 1.0), // a cut makes it rational
+            Self::Arc(arc) if arc.is_full() => {
+                vec![TAU / gauss::TURN.len() as f64; gauss::TURN.len()]
+            }
             Self::Arc(arc) => {
                 let count = arc_parts(arc.sweep);
                 times(&gauss::SIXTEEN, count, arc.sweep / count as f64)
@@ -120,6 +128,9 @@ impl Piece {
             Self::Line { from, to } => {
                 let along = to - from;
                 gauss::SIXTEEN.iter().map(|(u, _)| (from + along * *u, along)).collect()
+            }
+            Self::Arc(arc) if arc.is_full() => {
+                gauss::TURN.iter().map(|(cos, sin)| arc.toward(*cos, *sin)).collect()
             }
             Self::Arc(arc) => {
                 let count = arc_parts(arc.sweep);
@@ -184,9 +195,9 @@ impl Piece {
     }
 }
 
-/// In how many parts an arc is integrated: at most 45° each.
+/// In how many parts an arc is integrated: at most 90° each.
 fn arc_parts(sweep: f64) -> usize {
-    (sweep / FRAC_PI_4 - 1e-9).ceil().max(1.0) as usize
+    (sweep / FRAC_PI_2 - 1e-9).ceil().max(1.0) as usize
 }
 
 /// Signed area ½ ∮ (x dy − y dx) of a closed chain of pieces, mm².

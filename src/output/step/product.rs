@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use nalgebra::{Point3, Vector3};
 
-use super::brep::{Axes, Solid};
+use super::brep::Axes;
 use super::catalogue::Product;
 use super::context::Context;
 use super::document::{Property, Value};
@@ -59,9 +59,9 @@ impl<'w, 'a> Products<'w, 'a> {
     }
 
     /// Writes a product with a solid in it.
-    pub(super) fn leaf(&mut self, product: &Product<'_>, solid: &Solid) -> Result<Placed, Fault> {
+    pub(super) fn leaf(&mut self, product: &Product<'_>) -> Result<Placed, Fault> {
         self.geometry.begin_product();
-        let brep = Topology::new(&mut self.geometry).solid(solid)?;
+        let brep = Topology::new(&mut self.geometry).solid(&product.solid)?;
         let (origin, context) = (self.origin, self.context.geometry);
         let shape = self.part().entity(format_args!(
             "ADVANCED_BREP_SHAPE_REPRESENTATION('',({origin},{brep}),{context})"
@@ -88,9 +88,11 @@ impl<'w, 'a> Products<'w, 'a> {
     }
 
     /// States the volume, for readers that check what they made of a solid.
+    ///
+    /// Twelve digits: the rest is rounding, and differs from machine to machine.
     fn validation(&mut self, whole: Id, volume: f64) -> Result<(), Fault> {
-        let (unit, volume, context) =
-            (self.power("VOLUME", 3.0)?, Real(volume), self.context.geometry);
+        let (unit, context) = (self.power("VOLUME", 3.0)?, self.context.geometry);
+        let volume = Real(format!("{volume:.11e}").parse().unwrap_or(volume));
         let part = self.part();
         let property = part.entity(format_args!(
             "PROPERTY_DEFINITION('geometric validation property','',{whole})"

@@ -11,9 +11,8 @@ use super::{
 use crate::output::step::error::BodyError;
 use crate::output::step::facets::{Facet, Facets, Loop};
 
-/// Builds the solid; cavities become shells of their own.
+/// Builds the solid of checked facets; cavities become shells of their own.
 pub(super) fn solid(facets: &Facets) -> Result<Solid, BodyError> {
-    facets.check()?;
     let mut builder = Builder::new(facets);
     let faces = (0..facets.faces.len())
         .map(|index| builder.face(index))

@@ -105,15 +105,18 @@ impl Axes {
     }
 }
 
-/// Builds the boundary of a body and lets truck check it.
+/// Finds the volume of a body and builds its boundary, checked by truck.
 ///
 /// # Errors
 /// If the body is not a solid.
-pub(super) fn solid(body: &Body) -> Result<Solid, BodyError> {
+pub(super) fn build(body: &Body) -> Result<(f64, Solid), BodyError> {
     match body {
-        Body::Loft(loft) => loft::solid(&loft.levels()?),
-        Body::Sphere { radius } => sphere(*radius),
-        Body::Facets(facets) => facets::solid(facets),
+        Body::Loft(loft) => {
+            let levels = loft.levels()?;
+            Ok((levels.volume()?, loft::solid(&levels)?))
+        }
+        Body::Sphere { radius } => Ok((body.volume()?, sphere(*radius)?)),
+        Body::Facets(facets) => Ok((body.volume()?, facets::solid(facets)?)),
     }
 }
 
