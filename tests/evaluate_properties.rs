@@ -31,7 +31,8 @@ fn measured(shape: &Shape, skeleton: &Skeleton) -> Evaluation {
 }
 
 /// The figures that may not depend on where the part lies, with the part by which 36 rays in 10°
-/// steps may change them.
+/// steps may change them: the longest ray of a square that is not cut by a corner may be 8 % longer
+/// when the rays are turned by half a step.
 fn invariants(k: &Evaluation) -> Vec<(&'static str, f64, f64)> {
     let of = |x: Option<f64>| x.unwrap_or(-1.0);
     let mut figures = vec![
@@ -42,9 +43,9 @@ fn invariants(k: &Evaluation) -> Vec<(&'static str, f64, f64)> {
     ];
     for c in [&k.raw, &k.resampled] {
         figures.extend([
-            ("e_true_uncapped", of(c.e_true_uncapped), 0.02),
-            ("e_true_uncapped_shaft", of(c.e_true_uncapped_shaft), 0.02),
-            ("hu_degree_uncapped", of(c.hu_degree_uncapped), 0.02),
+            ("e_true_uncapped", of(c.e_true_uncapped), 0.08),
+            ("e_true_uncapped_shaft", of(c.e_true_uncapped_shaft), 0.08),
+            ("hu_degree_uncapped", of(c.hu_degree_uncapped), 0.03),
             ("offset", of(c.offset.mean), 1e-6),
             ("points outside", c.points_outside as f64, 0.0),
             ("shaft points", c.shaft_points as f64, 0.0),
@@ -134,7 +135,7 @@ fn the_table_fits_80_columns_whatever_the_number_of_skeletons() {
         let table = report(count).to_table();
         assert!(table.lines().all(|l| l.chars().count() <= 80), "{table}");
         assert_eq!(table.matches("E_center").count(), count.div_ceil(4));
-        assert_eq!(table.matches("eton_").count(), count);
+        assert_eq!(table.matches("ton_").count(), count);
     }
 }
 

@@ -1,5 +1,6 @@
 //! How much of the skeleton leaves the object.
 
+use nalgebra::Point3;
 use serde::Serialize;
 
 use crate::mesh::TriangleTree;
@@ -39,12 +40,17 @@ impl Outside {
             outside.length += length;
             outside.length_outside += length * out as f64 / samples;
             let inner = [AT_END, 1.0 - AT_END].map(|t| a + (b - a) * t);
-            outside.segments_through_surface +=
-                usize::from(tree.is_crossed_by(&inner[0], &inner[1]));
+            outside.segments_through_surface += usize::from(passes_through(tree, &inner));
         }
         if outside.length > 0.0 {
             outside.fraction = outside.length_outside / outside.length;
         }
         outside
     }
+}
+
+/// Whether a segment passes through the surface. One that meets an edge exactly crosses no triangle,
+/// but then its ends lie on different sides.
+fn passes_through(tree: &TriangleTree, [a, b]: &[Point3<f64>; 2]) -> bool {
+    tree.is_crossed_by(a, b) || tree.contains(a) != tree.contains(b)
 }

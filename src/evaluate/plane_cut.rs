@@ -8,6 +8,10 @@ use crate::mesh::contour::{Contour, Plane, entry, follow};
 use crate::mesh::id::{FaceId, HalfEdgeId};
 use crate::mesh::{HalfEdgeMesh, Surface};
 
+/// What lies outside of the cube by less than this part of its size lies in it. A straight round rod
+/// just touches the cube that its own interface section gives.
+const AT_CUBE: f64 = 1e-9;
+
 /// Where a plane crosses the edges of the mesh, curve after curve.
 ///
 /// Curves run counter-clockwise round material, seen against the normal. All lists have one entry
@@ -74,7 +78,8 @@ impl<'a> Cutter<'a> {
         self.cut.clear();
         let mesh = &self.surface.mesh;
         let (u, v) = plane.axes();
-        let in_cube = |p: &Point3<f64>| (p - plane.point).amax() <= cube_half;
+        let reach = cube_half * (1.0 + AT_CUBE);
+        let in_cube = |p: &Point3<f64>| (p - plane.point).amax() <= reach;
         self.surface.tree.visit_plane(plane, |face| {
             if self.seen[face as usize] == self.cuts {
                 return;

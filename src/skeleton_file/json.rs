@@ -111,7 +111,8 @@ pub(super) fn read(source: &Source<'_>) -> Result<Skeleton, SkeletonFileError> {
     };
     let skeleton = Reader { path: source.path, to_mm: unit.to_mm() }.skeleton(&file)?;
     let all_kinds = file.points.iter().all(|p| p.kind.is_some());
-    Ok(if all_kinds { skeleton } else { LineGraph::of(&skeleton).to_skeleton() })
+    let as_it_is = all_kinds || skeleton.branches.is_empty();
+    Ok(if as_it_is { skeleton } else { LineGraph::of(&skeleton).to_skeleton() })
 }
 
 fn json_error(path: &Path, error: &serde_json::Error) -> SkeletonFileError {
