@@ -149,7 +149,13 @@ impl BeamSection {
                     s.contour.iter().map(|p| axes.across(&(p - s.centroid))).collect();
                 let moments = Moments::of_polygon(&contour);
                 let off_axis = axes.across(&to).coords.norm();
-                BeamStation { at: to.dot(&axes.x) / length, contour, moments, off_axis, weight: 1.0 }
+                BeamStation {
+                    at: to.dot(&axes.x) / length,
+                    contour,
+                    moments,
+                    off_axis,
+                    weight: 1.0,
+                }
             })
             .filter(|s| s.moments.area > 0.0)
             .collect();

@@ -5,9 +5,9 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::beam_section::{BeamAxes, BeamSection};
 use super::params::FrameParams;
 use super::section_at::Section;
+use super::shape::{Loft, freeform, round};
 use super::solve::{Pull, solve_nodes};
 use super::straighten::{breaks, distance_to_segment};
-use super::shape::{Loft, freeform, round};
 use super::{Beam, Frame, Node, NodeId, NodeKind, direction};
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::InterfaceSection;
@@ -58,7 +58,13 @@ pub fn normalize(
     making.merge_near_nodes(skeleton, sections, &mut findings);
     making.solve(sections);
     making.report_deviations(skeleton, params, &mut findings);
-    let beams = making.pieces.iter().map(|p| beam(p, &making.nodes, sections, mean_radius(skeleton, &skeleton.branches[p.branch]))).collect();
+    let beams = making
+        .pieces
+        .iter()
+        .map(|p| {
+            beam(p, &making.nodes, sections, mean_radius(skeleton, &skeleton.branches[p.branch]))
+        })
+        .collect();
     Normalized { frame: Frame { nodes: making.nodes, beams }, findings }
 }
 
@@ -73,9 +79,8 @@ impl Making {
             for w in kept.windows(2) {
                 let ends = [w[0], w[1]].map(|i| {
                     let point = branch.points[i];
-                    *of_point[point as usize].get_or_insert_with(|| {
-                        making.add_node(skeleton, point, interfaces)
-                    })
+                    *of_point[point as usize]
+                        .get_or_insert_with(|| making.add_node(skeleton, point, interfaces))
                 });
                 let points = branch.points[w[0] + 1..w[1]].to_vec();
                 making.pieces.push(Piece { ends, branch: b, points });
@@ -255,5 +260,12 @@ fn beam(piece: &Piece, nodes: &[Node], sections: &[Option<Section>], fallback: f
     let axes = free.rolled(angle);
     let section = BeamSection::new(&found, a, length, &axes);
     let shape = freeform(&section, Loft::Constant).unwrap_or_else(|| round(fallback));
-    Beam { ends: piece.ends.map(NodeId::new), branch: piece.branch as u32, axes, length, section, shape }
+    Beam {
+        ends: piece.ends.map(NodeId::new),
+        branch: piece.branch as u32,
+        axes,
+        length,
+        section,
+        shape,
+    }
 }

@@ -39,12 +39,8 @@ const OUTLINE_POINTS: usize = 32;
 
 /// The averaged real contour of a beam, constant or scaled to the areas at its ends.
 pub fn freeform(section: &BeamSection, loft: Loft) -> Option<Shape> {
-    let contours: Vec<Vec<Point2<f64>>> = section
-        .stations
-        .iter()
-        .filter(|s| s.weight >= 0.5)
-        .map(|s| s.contour.clone())
-        .collect();
+    let contours: Vec<Vec<Point2<f64>>> =
+        section.stations.iter().filter(|s| s.weight >= 0.5).map(|s| s.contour.clone()).collect();
     let mean = average_outline(&contours, OUTLINE_POINTS).ok()?;
     let scaled = |to: &Moments| {
         let factor = (to.area / section.mean.area).sqrt();

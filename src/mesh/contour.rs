@@ -184,7 +184,8 @@ impl Extent {
             moment += (a + b) * w;
             a = b;
         }
-        let centroid = if doubled_area == 0.0 { first } else { first + moment / (3.0 * doubled_area) };
+        let centroid =
+            if doubled_area == 0.0 { first } else { first + moment / (3.0 * doubled_area) };
         let reach = contour
             .points
             .iter()

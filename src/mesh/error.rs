@@ -15,7 +15,8 @@ pub enum MeshError {
     /// The surface has openings that are neither small nor flat.
     #[error(
         "the surface is open: {edges} border edge(s) in {loops} opening(s), the first at {}; \
-         close the holes (MeshLab: Filters > Remeshing > Close Holes) and try again", place(first)
+         close the holes (MeshLab: Filters > Remeshing > Close Holes) and try again",
+        place(first)
     )]
     Open {
         /// Border edges that remain.

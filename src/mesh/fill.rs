@@ -84,15 +84,15 @@ fn origin(mesh: &IndexedMesh, h: u32) -> u32 {
 
 fn is_flat_or_crack(rim: &[Point3<f64>]) -> bool {
     let middle = mean(rim);
-    let doubled_area: Vector3<f64> = (0..rim.len())
-        .map(|i| (rim[i] - middle).cross(&(rim[(i + 1) % rim.len()] - middle)))
-        .sum();
+    let doubled_area: Vector3<f64> =
+        (0..rim.len()).map(|i| (rim[i] - middle).cross(&(rim[(i + 1) % rim.len()] - middle))).sum();
     let perimeter: f64 = (0..rim.len()).map(|i| (rim[(i + 1) % rim.len()] - rim[i]).norm()).sum();
     if doubled_area.norm() < 2.0 * CRACK * perimeter * perimeter {
         return true;
     }
     let normal = doubled_area.normalize();
-    let size = (rim.iter().map(|p| (p - middle).norm_squared()).sum::<f64>() / rim.len() as f64).sqrt();
+    let size =
+        (rim.iter().map(|p| (p - middle).norm_squared()).sum::<f64>() / rim.len() as f64).sqrt();
     rim.iter().all(|p| (p - middle).dot(&normal).abs() <= FLATNESS * size)
 }
 

@@ -111,9 +111,10 @@ impl IndexedMesh {
         let mut keep = vec![true; self.triangles.len()];
         for faces in by_lowest.iter() {
             for (i, &f) in faces.iter().enumerate() {
-                let twice = faces[..i].iter().rev().find(|&&g| {
-                    keep[g as usize] && same_corners(&self.at(f), &self.at(g))
-                });
+                let twice = faces[..i]
+                    .iter()
+                    .rev()
+                    .find(|&&g| keep[g as usize] && same_corners(&self.at(f), &self.at(g)));
                 if let Some(&g) = twice {
                     keep[f as usize] = false;
                     if is_even_turn(&self.at(f)) != is_even_turn(&self.at(g)) {
@@ -179,8 +180,7 @@ mod tests {
 
     #[test]
     fn a_repeated_triangle_stays_once_and_a_membrane_vanishes() {
-        let (mesh, counts) =
-            weld(&raw(&SQUARE, &[&[0, 1, 2], &[1, 2, 0], &[0, 2, 3], &[3, 2, 0]]));
+        let (mesh, counts) = weld(&raw(&SQUARE, &[&[0, 1, 2], &[1, 2, 0], &[0, 2, 3], &[3, 2, 0]]));
         assert_eq!(mesh.triangles, [[0, 1, 2]]);
         assert_eq!(counts.duplicate, 3);
     }

@@ -84,8 +84,10 @@ pub fn interface_sections(
     loops
         .into_iter()
         .filter_map(|half_edges| {
-            let points: Vec<_> = half_edges.iter().map(|&h| mesh.position(mesh.origin(h))).collect();
-            let Label::NonDesign(set) = labels.of_face[mesh.neighbour(half_edges[0]).index()] else {
+            let points: Vec<_> =
+                half_edges.iter().map(|&h| mesh.position(mesh.origin(h))).collect();
+            let Label::NonDesign(set) = labels.of_face[mesh.neighbour(half_edges[0]).index()]
+            else {
                 return None;
             };
             let LoopFrame { centroid, normal, area } = LoopFrame::of(&points);

@@ -155,18 +155,16 @@ fn marks_of(
         LabelSource::Box => (!params.boxes.is_empty()).then(|| in_boxes(mesh, &params.boxes)),
         LabelSource::FaceProperty => (!carriers.face_property.is_empty())
             .then(|| by_polygon(&|p| carriers.face_property[p] != 0)),
-        LabelSource::Selection => (!carriers.face_selected.is_empty())
-            .then(|| by_polygon(&|p| carriers.face_selected[p])),
+        LabelSource::Selection => {
+            (!carriers.face_selected.is_empty()).then(|| by_polygon(&|p| carriers.face_selected[p]))
+        }
         LabelSource::Quality => (!carriers.face_quality.is_empty())
             .then(|| by_polygon(&|p| carriers.face_quality[p] >= 0.5)),
         LabelSource::FaceColour => (!carriers.face_colour.is_empty())
             .then(|| by_polygon(&|p| carriers.face_colour[p].is_some_and(is_red))),
         LabelSource::VertexColour => (!carriers.vertex_colour.is_empty()).then(|| {
             by_polygon(&|p| {
-                raw.faces
-                    .corners_of(p)
-                    .iter()
-                    .all(|&v| is_red(carriers.vertex_colour[v as usize]))
+                raw.faces.corners_of(p).iter().all(|&v| is_red(carriers.vertex_colour[v as usize]))
             })
         }),
         LabelSource::Name => (!carriers.name_sets.is_empty()).then(|| {
@@ -280,7 +278,9 @@ mod tests {
 
     #[test]
     fn default_names_match_the_usual_spellings() {
-        for name in ["non_design", "Non-Design part 2", "NONDESIGN", "fixed_3", "keep", "x non design"] {
+        for name in
+            ["non_design", "Non-Design part 2", "NONDESIGN", "fixed_3", "keep", "x non design"]
+        {
             let hit = DEFAULT_NAMES
                 .iter()
                 .any(|p| matches_pattern(plain(p).as_bytes(), plain(name).as_bytes()));

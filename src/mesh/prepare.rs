@@ -60,8 +60,11 @@ impl Surface {
             })
             .sum();
         // The cap of a section looks out of the design part, against the section's normal.
-        let caps: f64 =
-            self.interfaces.iter().map(|i| i.normal.dot(&(i.centroid - origin)) * i.area / 3.0).sum();
+        let caps: f64 = self
+            .interfaces
+            .iter()
+            .map(|i| i.normal.dot(&(i.centroid - origin)) * i.area / 3.0)
+            .sum();
         design - caps
     }
 
@@ -235,7 +238,8 @@ fn choose_outward(
         }
     }
     super::orient::flip(&mut soup, &mut twins, &inside_out);
-    let keep: Vec<bool> = shells.of_face.iter().map(|&s| !cavity(&shells.all[s as usize])).collect();
+    let keep: Vec<bool> =
+        shells.of_face.iter().map(|&s| !cavity(&shells.all[s as usize])).collect();
     keep_faces(&mut soup, &mut twins, &keep);
     Ok((soup, twins))
 }
@@ -294,8 +298,7 @@ fn held_faces(shells: &Shells, non_design: &[bool], report: &mut MeshReport) -> 
     for (&s, _) in shells.of_face.iter().zip(non_design).filter(|(_, n)| **n) {
         held[s as usize] = true;
     }
-    report.islands =
-        shells.all.iter().zip(&held).filter(|(_, h)| !**h).map(|(s, _)| *s).collect();
+    report.islands = shells.all.iter().zip(&held).filter(|(_, h)| !**h).map(|(s, _)| *s).collect();
     report.bodies = held.iter().filter(|h| **h).count();
     shells.of_face.iter().map(|&s| held[s as usize]).collect()
 }

@@ -50,8 +50,11 @@ impl Labels {
                     continue;
                 }
                 let was_design = !non_design[patch[0].index()];
-                *(if was_design { &mut self.design_specks } else { &mut self.non_design_specks }) +=
-                    1;
+                *(if was_design {
+                    &mut self.design_specks
+                } else {
+                    &mut self.non_design_specks
+                }) += 1;
                 patch.iter().for_each(|f| non_design[f.index()] = was_design);
             }
         }
@@ -127,7 +130,10 @@ fn typical_loop_area(mesh: &HalfEdgeMesh, non_design: &[bool]) -> f64 {
     let is_design = |h: HalfEdgeId| !non_design[h.face().index()];
     let mut areas: Vec<f64> = border_loops(mesh, is_design)
         .iter()
-        .map(|l| LoopFrame::of(&l.iter().map(|&h| mesh.position(mesh.origin(h))).collect::<Vec<_>>()).area)
+        .map(|l| {
+            LoopFrame::of(&l.iter().map(|&h| mesh.position(mesh.origin(h))).collect::<Vec<_>>())
+                .area
+        })
         .collect();
     areas.sort_by(f64::total_cmp);
     let half = areas.iter().sum::<f64>() / 2.0;

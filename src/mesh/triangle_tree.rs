@@ -273,8 +273,11 @@ enum Hit {
 impl Ray {
     fn new(origin: &Point3<f64>, direction: &Vector3<f64>) -> Self {
         let z = direction.iamax();
-        let (x, y) =
-            if direction[z] < 0.0 { ((z + 2) % 3, (z + 1) % 3) } else { ((z + 1) % 3, (z + 2) % 3) };
+        let (x, y) = if direction[z] < 0.0 {
+            ((z + 2) % 3, (z + 1) % 3)
+        } else {
+            ((z + 1) % 3, (z + 2) % 3)
+        };
         let d = direction;
         Self {
             origin: *origin,
@@ -361,7 +364,8 @@ mod tests {
 
     fn cube() -> TriangleTree {
         let p = |k: usize| Point3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2 & 1) as f64);
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let quads =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         TriangleTree::new(
             quads
                 .iter()

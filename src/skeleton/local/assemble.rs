@@ -1,7 +1,5 @@
 //! Turns hubs and runs into points and branches, every segment inside.
 
-use nalgebra::Point3;
-
 use super::draft::{Draft, HubKind, Run};
 use super::sample::{Sample, samples};
 use crate::mesh::Surface;
@@ -13,8 +11,13 @@ pub(crate) fn assemble(surface: &Surface, step: f64, draft: &Draft) -> Skeleton 
     let at = draft.incidences();
     let mut skeleton = Skeleton::default();
     let of_hub = hub_points(draft, &at, &mut skeleton);
-    let chains: Vec<Vec<u32>> =
-        draft.runs.iter().map(|run| run_points(surface, step, draft, run, &of_hub, &mut skeleton)).collect();
+    let mut chains: Vec<Vec<u32>> = Vec::with_capacity(draft.runs.len());
+    for run in &draft.runs {
+        let hubs = run.hubs.map(|h| &draft.hubs[h]);
+        let placed = samples(surface, run, hubs, step);
+        let ends = run.hubs.map(|h| of_hub[h]);
+        chains.push(run_points(surface, run, &placed, ends, &mut skeleton));
+    }
     skeleton.branches = chained(draft, &at, &chains);
     skeleton
 }
@@ -36,35 +39,32 @@ fn hub_points(draft: &Draft, at: &[Vec<(usize, usize)>], skeleton: &mut Skeleton
     of_hub
 }
 
-/// Adds the points of a run; the indices of all, hubs included.
+/// Adds the points of a run; the indices of all, those of its hubs included.
 fn run_points(
     surface: &Surface,
-    step: f64,
-    draft: &Draft,
     run: &Run,
-    of_hub: &[u32],
+    samples: &[Sample],
+    ends: [u32; 2],
     skeleton: &mut Skeleton,
 ) -> Vec<u32> {
-    let ends: [Point3<f64>; 2] = run.hubs.map(|h| draft.hubs[h].position);
-    let kinds = run.hubs.map(|h| draft.hubs[h].kind);
-    let mut chain = vec![of_hub[run.hubs[0]]];
+    let [start, end] = ends.map(|e| skeleton.position(e));
+    let mut chain = vec![ends[0]];
     let mut add = |position, radius| {
         chain.push(skeleton.points.len() as u32);
         skeleton.points.push(SkeletalPoint { position, radius, kind: PointKind::Branch });
     };
-    let mut at = ends[0];
-    for sample in samples(surface, run, kinds, ends, step) {
-        let Sample { position, radius } = sample;
+    let mut at = start;
+    for &Sample { position, radius } in samples {
         for between in way_inside(&surface.mesh, &surface.tree, &at, &position) {
             add(between, radius);
         }
         add(position, radius);
         at = position;
     }
-    for between in way_inside(&surface.mesh, &surface.tree, &at, &ends[1]) {
+    for between in way_inside(&surface.mesh, &surface.tree, &at, &end) {
         add(between, run.radius());
     }
-    chain.push(of_hub[run.hubs[1]]);
+    chain.push(ends[1]);
     chain
 }
 

@@ -90,7 +90,8 @@ fn fit(stations: &[Station], weights: &[f64]) -> Option<Axis> {
     }
     let total: f64 = weights.iter().sum();
     let mean: Vector3<f64> =
-        stations.iter().zip(weights).map(|(s, w)| s.centroid.coords * *w).sum::<Vector3<f64>>() / total;
+        stations.iter().zip(weights).map(|(s, w)| s.centroid.coords * *w).sum::<Vector3<f64>>()
+            / total;
     let spread: Matrix3<f64> = stations
         .iter()
         .zip(weights)
@@ -104,7 +105,8 @@ fn fit(stations: &[Station], weights: &[f64]) -> Option<Axis> {
     let along = eigen.eigenvectors.column(column).into_owned();
     let first = stations[0].centroid;
     let last = stations[stations.len() - 1].centroid;
-    let direction = Unit::try_new(if along.dot(&(last - first)) < 0.0 { -along } else { along }, 0.5)?;
+    let direction =
+        Unit::try_new(if along.dot(&(last - first)) < 0.0 { -along } else { along }, 0.5)?;
     let radius = stations.iter().zip(weights).map(|(s, w)| s.radius * w).sum::<f64>() / total;
     Some(Axis {
         point: Point3::from(mean),

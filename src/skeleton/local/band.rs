@@ -83,8 +83,11 @@ impl Band {
                     if self.side_stamp[key.index()] >= on_lower {
                         continue;
                     }
-                    let (plane, passed) =
-                        if over_upper { (&upper.plane, on_upper) } else { (&lower.plane, on_lower) };
+                    let (plane, passed) = if over_upper {
+                        (&upper.plane, on_upper)
+                    } else {
+                        (&lower.plane, on_lower)
+                    };
                     if !self.cap_roughness(mesh, plane, over_upper, key, rough, passed) {
                         return Verdict::Splits;
                     }
@@ -150,9 +153,8 @@ fn bump_closes(
     near: &nalgebra::Point3<f64>,
     rough: f64,
 ) -> bool {
-    let is_beyond = |h: HalfEdgeId| {
-        (plane.height(&mesh.position(mesh.origin(h))) >= 0.0) == beyond_is_above
-    };
+    let is_beyond =
+        |h: HalfEdgeId| (plane.height(&mesh.position(mesh.origin(h))) >= 0.0) == beyond_is_above;
     let mut faces: Vec<FaceId> = contour.half_edges.iter().map(|h| h.face()).collect();
     let mut next = 0;
     while let Some(&face) = faces.get(next) {
@@ -223,9 +225,6 @@ impl Side {
         let key = |[a, _]: [f64; 2]| if a >= 0.0 { self.half_edge } else { self.twin };
         let over_upper = crosses(self.upper) && at_zero_of(self.upper, self.lower) >= 0.0;
         let over_lower = crosses(self.lower) && at_zero_of(self.lower, self.upper) < 0.0;
-        [
-            over_upper.then(|| (true, key(self.upper))),
-            over_lower.then(|| (false, key(self.lower))),
-        ]
+        [over_upper.then(|| (true, key(self.upper))), over_lower.then(|| (false, key(self.lower)))]
     }
 }

@@ -49,6 +49,12 @@ pub(crate) struct Hub {
     pub(crate) pinned: Option<Point3<f64>>,
 }
 
+impl Hub {
+    fn new(kind: HubKind, position: Point3<f64>) -> Self {
+        Self { kind, position, pinned: None }
+    }
+}
+
 /// A branch to be: sections between two hubs.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
@@ -78,7 +84,7 @@ impl Run {
     }
 }
 
-fn reversed(stations: &[Station]) -> Vec<Station> {
+pub(crate) fn reversed(stations: &[Station]) -> Vec<Station> {
     stations.iter().rev().map(|s| Station { direction: -s.direction, ..*s }).collect()
 }
 
@@ -99,10 +105,7 @@ impl Draft {
         let mut draft = Self::default();
         let mut ends: Vec<[Option<usize>; 2]> = vec![[None; 2]; found.tubes.len()];
         draft.hubs.extend(
-            interfaces
-                .iter()
-                .enumerate()
-                .map(|(i, s)| Hub { kind: HubKind::Interface(i), position: s.centroid, pinned: None }),
+            interfaces.iter().enumerate().map(|(i, s)| Hub::new(HubKind::Interface(i), s.centroid)),
         );
         for patch in &found.patches.all {
             let sections: Vec<usize> = patch
@@ -148,7 +151,7 @@ impl Draft {
     }
 
     pub(crate) fn add_hub(&mut self, kind: HubKind) -> usize {
-        self.hubs.push(Hub { kind, position: Point3::origin(), pinned: None });
+        self.hubs.push(Hub::new(kind, Point3::origin()));
         self.hubs.len() - 1
     }
 
@@ -229,7 +232,8 @@ fn knee(legs: &[Vec<Station>; 2]) -> Option<Point3<f64>> {
     if !(-STRAIGHT_ON..STRAIGHT_ON).contains(&cosine) {
         return None;
     }
-    let meeting = meeting_point(&[a, b], &nalgebra::center(&legs[0][0].centroid, &legs[1][0].centroid));
+    let meeting =
+        meeting_point(&[a, b], &nalgebra::center(&legs[0][0].centroid, &legs[1][0].centroid));
     let fits = |axis: &Axis, leg: &[Station]| {
         let ahead = (leg[0].centroid - meeting).dot(&axis.direction);
         axis.distance(&meeting) <= 0.5 * KNEE_MISSES * axis.radius
@@ -245,7 +249,7 @@ fn replace(list: &mut [(usize, usize)], old: (usize, usize), new: (usize, usize)
     }
 }
 
-fn stations_of(tube: &Tube) -> Vec<Station> {
+pub(crate) fn stations_of(tube: &Tube) -> Vec<Station> {
     tube.fronts
         .iter()
         .map(|f| Station {

@@ -49,14 +49,38 @@ pub(crate) fn place_joints(draft: &mut Draft, surface: &Surface) {
         }
         let axes: Vec<Axis> = axes_at(draft, runs).into_iter().flatten().collect();
         let rough = draft.hubs[hub].position;
-        let meeting = meeting_point(&axes, &rough);
+        let meeting = within_reach(draft, runs, meeting_point(&axes, &rough), rough);
         draft.hubs[hub].position = nearest_inside(surface, meeting, rough);
     }
 }
 
+/// The meeting point, drawn back to the ball round the joint in which its branches end: axes that
+/// run side by side meet far away.
+fn within_reach(
+    draft: &Draft,
+    runs: &[(usize, usize)],
+    meeting: Point3<f64>,
+    rough: Point3<f64>,
+) -> Point3<f64> {
+    let reach = runs
+        .iter()
+        .filter_map(|&(r, end)| {
+            let stations = &draft.runs[r].stations;
+            let nearest = if end == 0 { stations.first() } else { stations.last() };
+            nearest.map(|s| (s.centroid - rough).norm() + s.radius)
+        })
+        .fold(0.0f64, f64::max);
+    let away = meeting - rough;
+    if away.norm() > reach { rough + away * (reach / away.norm()) } else { meeting }
+}
+
 /// `wanted`, or the point nearest to it on the way to `fallback` that lies inside, or the middle of
 /// the wall next to that.
-fn nearest_inside(surface: &Surface, wanted: Point3<f64>, fallback: Point3<f64>) -> Point3<f64> {
+pub(crate) fn nearest_inside(
+    surface: &Surface,
+    wanted: Point3<f64>,
+    fallback: Point3<f64>,
+) -> Point3<f64> {
     (0..=8)
         .map(|k| wanted + (fallback - wanted) * (f64::from(k) / 8.0))
         .find(|p| surface.tree.contains(p))

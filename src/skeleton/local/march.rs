@@ -130,7 +130,8 @@ impl<'a> March<'a> {
     fn reversed(&self, front: &Front) -> Option<Front> {
         let plane = Plane::new(front.plane.point, -front.plane.normal);
         // Points on the plane count as above on either side, so the crossed sides may differ.
-        let start = front.contour.half_edges.iter().find_map(|h| entry(self.mesh(), &plane, h.face()));
+        let start =
+            front.contour.half_edges.iter().find_map(|h| entry(self.mesh(), &plane, h.face()));
         self.front(plane, start?, |_| true)
     }
 
@@ -160,7 +161,8 @@ impl<'a> March<'a> {
         let radius = last.extent.radius();
         let step = part * STEP * radius;
         let direction = last.plane.normal;
-        let ahead = self.cut_ahead(last, fronts, last.extent.centroid + *direction * step, direction)?;
+        let ahead =
+            self.cut_ahead(last, fronts, last.extent.centroid + *direction * step, direction)?;
         let base = behind(fronts, BASE_OF_DIRECTION * radius);
         let turned = Unit::try_new(ahead.extent.centroid - base.extent.centroid, 1e-9 * radius)
             .unwrap_or(direction);
@@ -266,9 +268,10 @@ fn climb(mesh: &HalfEdgeMesh, lower: &Plane, upper: &Plane, face: FaceId) -> Opt
             // The triangle of `top` also has the vertex climbed from, which lies below.
             return entry(mesh, upper, top.face());
         }
-        let higher = mesh.fan(top).map(|h| h.next()).fold(top, |best, h| {
-            if height(h) > height(best) { h } else { best }
-        });
+        let higher = mesh
+            .fan(top)
+            .map(|h| h.next())
+            .fold(top, |best, h| if height(h) > height(best) { h } else { best });
         if higher == top {
             return None;
         }

@@ -23,14 +23,17 @@ mod assemble;
 mod axis;
 mod band;
 mod claim;
+mod curve;
 mod draft;
 mod junction;
 mod march;
 pub(super) mod patch;
 mod sample;
 mod search;
+mod section_near;
 mod seed;
 mod simplify;
+mod trend;
 
 use self::draft::Draft;
 use self::march::March;

@@ -5,6 +5,10 @@ use std::ops::ControlFlow;
 
 use nalgebra::Point3;
 
+use super::axis::{Axis, axis_at_start};
+use super::band::Front;
+use super::draft::{Station, reversed, stations_of};
+use super::junction::meeting_point;
 use super::march::{March, Tube};
 use super::patch::{CutSide, Patch, Patches, patches};
 use super::seed::{Place, places};
@@ -22,27 +26,46 @@ struct Look {
     reach: f64,
     /// Shortest tube, in its radii.
     shortest: f64,
+    /// Whether all places are cut before the first march.
+    thinnest_first: bool,
     /// Which pieces are looked at; the first look has no pieces yet.
     pieces: fn(&Seen<'_>, &Patch) -> bool,
 }
 
 /// The looks, one after the other.
 ///
-/// First everywhere, for tubes at least as long as their radius: shorter ones are found in every
-/// rounded corner. Struts of a third of the mean radius still get a dozen places, and sections up
-/// to three mean radii close within the reach. Then for thicker members, where the first look left
-/// much surface. Then for short struts between junctions, in pieces too large for one. At last, in
-/// pieces with a handle, any section across the handle will do.
+/// First everywhere, for tubes at least twice as long as their radius: shorter ones are found in
+/// every rounded corner. Struts of a third of the mean radius still get a dozen places, and
+/// sections up to three mean radii close within the reach. Then for thicker members, where the
+/// first look left much surface. Then for short struts between junctions, in pieces that do not
+/// look like one junction, the thinnest section first: a neck tells more than what surrounds it. At
+/// last, in pieces with a handle, any section across the handle will do.
 const LOOKS: [Look; 4] = [
-    Look { spacing: 1.0, reach: 6.0, shortest: 1.0, pieces: |_, _| true },
-    Look { spacing: 3.0, reach: 40.0, shortest: 1.0, pieces: |_, _| true },
-    Look { spacing: 0.5, reach: 6.0, shortest: 0.5, pieces: is_large_or_handled },
-    Look { spacing: 0.25, reach: 40.0, shortest: 0.0, pieces: |_, piece| piece.genus > 0 },
+    Look { spacing: 1.0, reach: 6.0, shortest: 2.0, thinnest_first: false, pieces: |_, _| true },
+    Look { spacing: 3.0, reach: 40.0, shortest: 1.0, thinnest_first: false, pieces: |_, _| true },
+    Look {
+        spacing: 0.5,
+        reach: 6.0,
+        shortest: 0.5,
+        thinnest_first: true,
+        pieces: may_hide_a_strut,
+    },
+    Look {
+        spacing: 0.25,
+        reach: 40.0,
+        shortest: 0.0,
+        thinnest_first: true,
+        pieces: |_, piece| piece.genus > 0,
+    },
 ];
 
 /// A piece reaches no farther than this from its middle, in radii of its ends, when it is one
 /// junction: a joint of six struts at right angles has its ends at two, a fork of 25° at five.
 const LARGE: f64 = 3.5;
+
+/// Axes of one junction miss each other by tenths of a radius; those of an H, whose tie has not
+/// been found, by half its height.
+const MISSES: f64 = 0.5;
 
 /// What the looks so far have found.
 struct Seen<'a> {
@@ -101,29 +124,43 @@ fn cut_open(surface: &Surface, tubes: &[Tube]) -> Patches {
     patches(&surface.mesh, |f| surface.labels.is_design(f), &cuts, &surface.interfaces)
 }
 
-/// Whether a piece may hide a strut: it has a handle, or its ends lie farther apart than at one
-/// junction, or an interface section opens into it without a tube of its own.
-fn is_large_or_handled(seen: &Seen<'_>, piece: &Patch) -> bool {
-    let tube_ends = piece.cuts.iter().map(|&(tube, side)| {
-        let fronts = &seen.tubes[tube].fronts;
-        let front = if side == CutSide::Below { &fronts[0] } else { &fronts[fronts.len() - 1] };
-        (front.extent.centroid, front.extent.radius())
-    });
+/// Whether a piece may hide a strut: it has a handle, its ends lie farther apart than at one
+/// junction, or their axes do not meet in one point.
+fn may_hide_a_strut(seen: &Seen<'_>, piece: &Patch) -> bool {
+    if piece.genus > 0 {
+        return true;
+    }
+    let legs: Vec<Vec<Station>> = piece
+        .cuts
+        .iter()
+        .map(|&(tube, side)| {
+            let stations = stations_of(&seen.tubes[tube]);
+            if side == CutSide::Below { stations } else { reversed(&stations) }
+        })
+        .collect();
     let sections = piece
         .interfaces
         .iter()
         .map(|&i| &seen.surface.interfaces[i])
         .filter(|i| i.kind == InterfaceKind::Section)
         .map(|i| (i.centroid, i.radius()));
-    let ends: Vec<(Point3<f64>, f64)> = tube_ends.chain(sections).collect();
-    if piece.genus > 0 || ends.is_empty() {
-        return piece.genus > 0;
+    let ends: Vec<(Point3<f64>, f64)> =
+        legs.iter().map(|leg| (leg[0].centroid, leg[0].radius)).chain(sections).collect();
+    if ends.is_empty() {
+        return false;
     }
     let count = ends.len() as f64;
     let middle =
         Point3::from(ends.iter().map(|e| e.0.coords).sum::<nalgebra::Vector3<f64>>() / count);
     let radius = ends.iter().map(|e| e.1).sum::<f64>() / count;
-    ends.iter().any(|e| (e.0 - middle).norm() > LARGE * radius)
+    ends.iter().any(|e| (e.0 - middle).norm() > LARGE * radius) || !meet(&legs, &middle)
+}
+
+/// Whether the axes of all legs pass one point.
+fn meet(legs: &[Vec<Station>], middle: &Point3<f64>) -> bool {
+    let axes: Vec<Axis> = legs.iter().filter_map(|leg| axis_at_start(leg)).collect();
+    let meeting = meeting_point(&axes, middle);
+    axes.iter().all(|axis| axis.distance(&meeting) <= MISSES * axis.radius)
 }
 
 fn search(
@@ -134,6 +171,8 @@ fn search(
     tubes: &mut Vec<Tube>,
     progress: &mut impl FnMut(usize) -> Result<(), SkeletonError>,
 ) -> Result<(), SkeletonError> {
+    let reach = look.reach * mean_radius;
+    let mut cut: Vec<Front> = Vec::new();
     for (i, place) in places.iter().enumerate() {
         if i % 64 == 0 {
             progress(i)?;
@@ -141,18 +180,29 @@ fn search(
         if march.claims.holds(place.face, &place.point) {
             continue;
         }
-        let Some(front) = march.section_at(place, look.reach * mean_radius) else { continue };
-        if !march.is_free(&front) || (look.shortest > 0.0 && !march.goes_on(&front)) {
-            continue;
-        }
-        let shortest = look.shortest * front.extent.radius();
-        let mark = march.claims.mark();
-        let tube = march.both_ways(front);
-        if tube.length() < shortest {
-            march.claims.take_back(mark);
+        let Some(front) = march.section_at(place, reach) else { continue };
+        if look.thinnest_first {
+            cut.push(front);
         } else {
-            tubes.push(tube);
+            try_front(march, front, look, tubes);
         }
     }
+    cut.sort_by(|a, b| a.extent.area.total_cmp(&b.extent.area));
+    cut.into_iter().for_each(|front| try_front(march, front, look, tubes));
     Ok(())
+}
+
+/// Marches from a front and keeps the tube if it is long enough.
+fn try_front(march: &mut March<'_>, front: Front, look: &Look, tubes: &mut Vec<Tube>) {
+    if !march.is_free(&front) || (look.shortest > 0.0 && !march.goes_on(&front)) {
+        return;
+    }
+    let shortest = look.shortest * front.extent.radius();
+    let mark = march.claims.mark();
+    let tube = march.both_ways(front);
+    if tube.length() < shortest {
+        march.claims.take_back(mark);
+    } else {
+        tubes.push(tube);
+    }
 }

@@ -85,9 +85,8 @@ impl March<'_> {
         for k in 0..DIRECTIONS {
             let angle = std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
             let direction = Unit::new_normalize(u * angle.cos() + v * angle.sin());
-            let limit = best
-                .as_ref()
-                .map_or(limit, |b| limit.min(2.0 * REACH_OVER_BEST * b.extent.reach));
+            let limit =
+                best.as_ref().map_or(limit, |b| limit.min(2.0 * REACH_OVER_BEST * b.extent.reach));
             let Some(front) = self.section_through(place, direction, limit) else { continue };
             if best.as_ref().is_none_or(|b| front.extent.area < b.extent.area) {
                 best = Some(front);

@@ -5,8 +5,9 @@ use nalgebra::Point3;
 
 use super::axis::{Axis, axis_at_start};
 use super::draft::{Draft, HubKind};
-use super::junction::{meeting_point, place_joints};
-use crate::mesh::{InterfaceSection, Surface};
+use super::junction::{meeting_point, nearest_inside, place_joints};
+use crate::mesh::Surface;
+use crate::skeleton::inside::is_inside;
 
 /// Joints nearer to each other than this many radii of their branches are one: the axes of a plain
 /// joint miss each other by tenths, two joints a radius apart cannot be built.
@@ -25,9 +26,8 @@ pub(crate) fn simplify(draft: &mut Draft, surface: &Surface) {
     loop {
         draft.remove_false_joints(surface);
         place_joints(draft, surface);
-        let changed = prune_tips(draft)
-            || merge_joints(draft)
-            || merge_into_interfaces(draft, &surface.interfaces);
+        let changed =
+            prune_tips(draft) || merge_joints(draft) || merge_into_interfaces(draft, surface);
         if !changed {
             return;
         }
@@ -116,7 +116,8 @@ fn merge_hubs(draft: &mut Draft, r: usize, into: usize, from: usize) {
 }
 
 /// Moves joints that lie in an interface section into it; whether any was.
-fn merge_into_interfaces(draft: &mut Draft, interfaces: &[InterfaceSection]) -> bool {
+fn merge_into_interfaces(draft: &mut Draft, surface: &Surface) -> bool {
+    let interfaces = &surface.interfaces;
     let at = draft.incidences();
     for (r, run) in draft.runs.iter().enumerate() {
         let [a, b] = run.hubs;
@@ -139,13 +140,16 @@ fn merge_into_interfaces(draft: &mut Draft, interfaces: &[InterfaceSection]) -> 
         if in_front > AT_INTERFACE * thickest {
             continue;
         }
-        if run.length() > run.radius() {
-            // The struts run in one section for a while before the interface: the joint stays
-            // where they part.
-            let stations = run.seen_from(usize::from(run.hubs[1] == joint));
-            let place = stations[0].centroid;
-            if draft.hubs[joint].pinned != Some(place) {
-                draft.hubs[joint].pinned = Some(place);
+        let stem = run.seen_from(usize::from(run.hubs[1] == joint));
+        let parting = match stem.first() {
+            Some(station) => station.centroid,
+            None => nearest_inside(surface, parting(draft, &at[joint], r), interfaces[i].centroid),
+        };
+        let ahead = (parting - interfaces[i].centroid).dot(&interfaces[i].normal);
+        if ahead > AT_INTERFACE * thickest && sees_all(draft, surface, &at[joint], &parting) {
+            // The struts run in one section for a while: the joint stays where they part.
+            if draft.hubs[joint].pinned.is_none() {
+                draft.hubs[joint].pinned = Some(parting);
                 return true;
             }
             continue;
@@ -154,4 +158,32 @@ fn merge_into_interfaces(draft: &mut Draft, interfaces: &[InterfaceSection]) -> 
         return true;
     }
     false
+}
+
+/// Middle of the sections next to a joint of the runs other than `stem`: where they part.
+fn parting(draft: &Draft, runs: &[(usize, usize)], stem: usize) -> Point3<f64> {
+    let ends: Vec<nalgebra::Vector3<f64>> = runs
+        .iter()
+        .filter(|(r, _)| *r != stem)
+        .filter_map(|&(r, end)| {
+            let stations = &draft.runs[r].stations;
+            let nearest = if end == 0 { stations.first() } else { stations.last() };
+            nearest.map(|s| s.centroid.coords)
+        })
+        .collect();
+    Point3::from(ends.iter().sum::<nalgebra::Vector3<f64>>() / ends.len().max(1) as f64)
+}
+
+/// Whether the nearest sections of all runs at a joint are seen from a place inside the object.
+fn sees_all(
+    draft: &Draft,
+    surface: &Surface,
+    runs: &[(usize, usize)],
+    place: &Point3<f64>,
+) -> bool {
+    runs.iter().all(|&(r, end)| {
+        let stations = &draft.runs[r].stations;
+        let nearest = if end == 0 { stations.first() } else { stations.last() };
+        nearest.is_none_or(|s| is_inside(&surface.tree, place, &s.centroid))
+    })
 }
