@@ -64,7 +64,8 @@ impl Observer for Progress {
                 bar.set_position(done as u64);
             }
             Self::Json => {
-                let line = serde_json::json!({ "stage": stage.name(), "done": done, "total": total });
+                let line =
+                    serde_json::json!({ "stage": stage.name(), "done": done, "total": total });
                 // Nobody listens any more: that is no reason to stop the work.
                 let _ = writeln!(std::io::stderr(), "{line}");
             }

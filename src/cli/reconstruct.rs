@@ -82,8 +82,8 @@ fn same_file(a: &Path, b: &Path) -> bool {
 
 fn write(targets: &Targets, args: &ReconstructArgs, outcome: &Outcome) -> Result<(), Failure> {
     let name = args.input.input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let document = assembly::document(&name, &outcome.frame, args.output.density)
-        .map_err(Failure::input)?;
+    let document =
+        assembly::document(&name, &outcome.frame, args.output.density).map_err(Failure::input)?;
     let rows = cut_list::rows(&outcome.frame, args.output.density);
     let mut files = OutputFiles::default();
     files

@@ -21,8 +21,8 @@ pub(crate) fn run(
     settings.skeleton = (&args.march).into();
     let (surface, marched) = march(&args.input.input, &settings, progress)?;
     let name = show::name_of(&args.input.input);
-    let summary = Summary::new(name, &surface, &marched.findings)
-        .with_skeleton(&surface, &marched.skeleton);
+    let summary =
+        Summary::new(name, &surface, &marched.findings).with_skeleton(&surface, &marched.skeleton);
     if !(args.result.strict && summary.has_breach()) {
         let mut files = OutputFiles::default();
         files

@@ -43,7 +43,11 @@ pub fn rows(frame: &Frame, density: f64) -> Vec<CutListRow> {
 
 /// A text that no spreadsheet takes for a formula.
 fn guarded(text: &str) -> String {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) { format!("'{text}") } else { text.into() }
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        format!("'{text}")
+    } else {
+        text.into()
+    }
 }
 
 fn rounded(x: f64, digits: i32) -> f64 {

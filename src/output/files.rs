@@ -81,8 +81,7 @@ impl OutputFiles {
     /// The first file that cannot be renamed; those after it are not written.
     pub fn commit(self) -> Result<(), WriteError> {
         for (path, file) in self.pending {
-            file.persist(&path)
-                .map_err(|e| WriteError { path: path.clone(), source: e.error })?;
+            file.persist(&path).map_err(|e| WriteError { path: path.clone(), source: e.error })?;
         }
         Ok(())
     }

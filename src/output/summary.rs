@@ -208,8 +208,7 @@ impl MeshSummary {
 impl LabelSummary {
     fn new(surface: &Surface) -> Self {
         let counts = &surface.report.labels;
-        let design_faces =
-            surface.labels.of_face.iter().filter(|l| **l == Label::Design).count();
+        let design_faces = surface.labels.of_face.iter().filter(|l| **l == Label::Design).count();
         Self {
             source: counts.used.map(|s| s.describe()),
             marked: counts.marked.iter().map(|(s, n)| (s.describe(), *n)).collect(),
