@@ -19,7 +19,7 @@
 //!
 //! | figure | what | module |
 //! |---|---|---|
-//! | `raw.e_center` | eq. (2.2) as the thesis has it (§4.4): crossings in a cube, polar interpolation | `rays`, `plane_cut` |
+//! | `raw.e_center` | eq. (2.2) as in §4.4: crossings in a cube, polar interpolation | `rays`, `plane_cut` |
 //! | `resampled.*` | the same figures with points at equal spacing | `resample` |
 //! | `*.e_true` | rays cast against the section the point really belongs to | `section`, `rays` |
 //! | `*_shaft` | without the zones about junctions and ends | `centeredness` |
@@ -67,8 +67,9 @@
 //! let skeleton = skeleton_file::read_bytes(line, skeleton_file::Format::Obj, Unit::Mm)?;
 //! let evaluation = evaluate(&surface, &skeleton, &EvaluateOptions::default())?;
 //!
-//! let e = evaluation.raw.e_true_uncapped.unwrap() * evaluation.mesh.r;
-//! assert!((e - 0.5).abs() < 1e-9); // 1.25 mm to one side, 0.75 mm to the other
+//! // 0.25 mm from the centroid of a section of 4 mm².
+//! let offset = evaluation.raw.offset.mean.unwrap();
+//! assert!((offset - 0.25 / (4.0 / std::f64::consts::PI).sqrt()).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
