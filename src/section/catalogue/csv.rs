@@ -68,7 +68,8 @@ fn values(
             continue;
         }
         let is_text = column == "name" || SHARED.contains(&column.as_str());
-        let value = if semicolons && !is_text { value.replace(',', ".") } else { folded(column, value) };
+        let value =
+            if semicolons && !is_text { value.replace(',', ".") } else { folded(column, value) };
         values.insert(column.clone(), value);
     }
     values

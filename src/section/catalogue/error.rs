@@ -147,7 +147,9 @@ pub enum RowFault {
     Shape(#[from] SectionError),
 
     /// A published value does not agree with the shape.
-    #[error("{column} is stated as {stated}, but the sizes give {computed}; one of them is mistyped")]
+    #[error(
+        "{column} is stated as {stated}, but the sizes give {computed}; one of them is mistyped"
+    )]
     Disagrees {
         /// Column of the value.
         column: &'static str,

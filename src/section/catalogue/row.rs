@@ -54,7 +54,8 @@ impl Row {
         let properties = profile.properties()?;
         self.compare(&properties)?;
         let in_pounds = self.text("unit") == Some("in");
-        let nominal_mass = self.number("mass")?.map(|m| if in_pounds { m * POUND_PER_FOOT } else { m });
+        let nominal_mass =
+            self.number("mass")?.map(|m| if in_pounds { m * POUND_PER_FOOT } else { m });
         if let Some(mass) = nominal_mass.filter(|m| !(m.is_finite() && *m > 0.0)) {
             return Err(RowFault::NotANumber { column: "mass".into(), text: mass.to_string() });
         }
@@ -92,9 +93,7 @@ impl Row {
             "cm" => Ok(10.0),
             "m" => Ok(1000.0),
             "in" => Ok(INCH),
-            other => {
-                Err(RowFault::Unknown { what: "unit", text: other.to_owned(), known: UNITS })
-            }
+            other => Err(RowFault::Unknown { what: "unit", text: other.to_owned(), known: UNITS }),
         }
     }
 
@@ -177,7 +176,7 @@ impl Row {
         for (column, power, computed, tolerance) in checks {
             let Some(published) = self.number(column)? else { continue };
             let stated = published * unit.powi(power);
-            if !((stated / computed - 1.0).abs() <= tolerance) {
+            if (stated / computed - 1.0).abs() > tolerance {
                 return Err(RowFault::Disagrees { column, stated, computed });
             }
         }

@@ -156,7 +156,8 @@ mod tests {
     fn heart_becomes_freeform() {
         let heart = (0..80).map(|i| {
             let t = std::f64::consts::TAU * f64::from(i) / 80.0;
-            let y = 13.0 * t.cos() - 5.0 * (2.0 * t).cos() - 2.0 * (3.0 * t).cos() - (4.0 * t).cos();
+            let y =
+                13.0 * t.cos() - 5.0 * (2.0 * t).cos() - 2.0 * (3.0 * t).cos() - (4.0 * t).cos();
             Point2::new(16.0 * t.sin().powi(3), y)
         });
         let target = MatchTarget::of_contours(Contours::solid(heart.collect())).unwrap();

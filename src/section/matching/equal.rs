@@ -62,11 +62,7 @@ fn difference(a: &[f64; 5], b: &[f64; 5]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
 }
 
-fn summary(
-    beams: &[(MatchTarget, f64)],
-    rows: &[[f64; 5]],
-    members: Vec<Vec<usize>>,
-) -> Equalized {
+fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: Vec<Vec<usize>>) -> Equalized {
     let mut all = Equalized {
         group_of: vec![0; beams.len()],
         targets: Vec::new(),
@@ -114,8 +110,12 @@ mod tests {
     #[test]
     fn legs_of_a_table_are_one_group() {
         let beams = [
-            bar(10.0, 50.0), bar(6.4, 96.0), bar(10.1, 50.2),
-            bar(9.95, 49.9), bar(6.4, 61.0), bar(10.05, 50.0),
+            bar(10.0, 50.0),
+            bar(6.4, 96.0),
+            bar(10.1, 50.2),
+            bar(9.95, 49.9),
+            bar(6.4, 61.0),
+            bar(10.05, 50.0),
         ];
         let all = equalize(&beams, 0.05);
         assert_eq!(all.group_of, [0, 1, 0, 0, 2, 0]);

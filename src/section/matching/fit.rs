@@ -38,12 +38,12 @@ pub(super) fn fitted(
             Shape::Ellipse { b, h }
         }
         ProfileChoice::Box => walled(target, |h, b, t| Shape::Box { b, h, t, r_o: 0.0, r_i: 0.0 }),
-        ProfileChoice::I => walled(target, |h, b, t_f| {
-            Shape::I { h, b, t_w: WEB_OVER_FLANGE * t_f, t_f, r: 0.0 }
-        }),
-        ProfileChoice::C => walled(target, |h, b, t_f| {
-            Shape::C { h, b, t_w: WEB_OVER_FLANGE * t_f, t_f, r: 0.0 }
-        }),
+        ProfileChoice::I => {
+            walled(target, |h, b, t_f| Shape::I { h, b, t_w: WEB_OVER_FLANGE * t_f, t_f, r: 0.0 })
+        }
+        ProfileChoice::C => {
+            walled(target, |h, b, t_f| Shape::C { h, b, t_w: WEB_OVER_FLANGE * t_f, t_f, r: 0.0 })
+        }
         ProfileChoice::L => walled(target, |h, b, t| Shape::L { h, b, t, r_1: 0.0, r_2: 0.0 }),
         // Auto, freeform and catalogue are not families of sizes; their callers see to them.
         _ => {
@@ -160,7 +160,8 @@ mod tests {
     #[test]
     fn solid_bar_becomes_a_tube_of_equal_stiffness() {
         let target = target(Shape::Round { d: 20.0 });
-        for family in [ProfileChoice::Tube, ProfileChoice::Box, ProfileChoice::I, ProfileChoice::C] {
+        for family in [ProfileChoice::Tube, ProfileChoice::Box, ProfileChoice::I, ProfileChoice::C]
+        {
             let e = errors(fitted(&family, &target, MatchMode::Stiffness).unwrap(), &target);
             assert!(e.i_1.abs() < 1e-6 && e.i_2.abs() < 1e-6 && e.area < -0.3, "{family}: {e:?}");
         }

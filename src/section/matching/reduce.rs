@@ -93,7 +93,8 @@ pub fn reduce_profiles(
         .collect();
     let max = max.min(pool.len());
     let is_least = choices(pool.len(), max) <= TRY_ALL;
-    let mut chosen = if is_least { try_all(&costs, max) } else { greedy_then_exchange(&costs, max) };
+    let mut chosen =
+        if is_least { try_all(&costs, max) } else { greedy_then_exchange(&costs, max) };
     chosen.sort_unstable();
     let profile_of: Vec<usize> =
         (0..requirements.len()).map(|beam| cheapest(&costs, &chosen, beam)).collect();
@@ -113,8 +114,7 @@ fn reduction(
     cost: f64,
     is_least: bool,
 ) -> Reduction {
-    let used: Vec<usize> =
-        (0..chosen.len()).filter(|place| profile_of.contains(place)).collect();
+    let used: Vec<usize> = (0..chosen.len()).filter(|place| profile_of.contains(place)).collect();
     let renumbered = |place: &usize| used.binary_search(place).unwrap_or(0);
     Reduction {
         profiles: used.iter().map(|&place| pool[chosen[place]].clone()).collect(),
@@ -139,9 +139,7 @@ fn cost(own: &SectionProperties, beam: &Requirement, mode: MatchMode) -> f64 {
     let log = |is: f64, goal: f64| (is / goal).ln();
     beam.length
         * match mode {
-            MatchMode::Stiffness => {
-                log(own.i_1, target.i_1).hypot(log(own.i_2, target.i_2))
-            }
+            MatchMode::Stiffness => log(own.i_1, target.i_1).hypot(log(own.i_2, target.i_2)),
             MatchMode::Area => log(own.area, target.area).abs(),
             MatchMode::NotWeaker if MatchErrors::of(own, target).is_not_weaker() => own.area,
             MatchMode::NotWeaker => f64::INFINITY,
@@ -159,8 +157,9 @@ impl Total {
     fn of(costs: &[Vec<f64>], chosen: &[usize]) -> Self {
         let beams = costs.first().map_or(0, Vec::len);
         let mut total = Self { unserved: 0, cost: 0.0 };
-        for beam in 0..beams {
-            let least = chosen.iter().map(|&p| costs[p][beam]).fold(f64::INFINITY, f64::min);
+        let least =
+            |beam: usize| chosen.iter().map(|&p| costs[p][beam]).fold(f64::INFINITY, f64::min);
+        for least in (0..beams).map(least) {
             if least.is_finite() {
                 total.cost += least;
             } else {
@@ -173,7 +172,8 @@ impl Total {
 
 /// Place in `chosen` of the cheapest profile for a beam; the first of equals.
 fn cheapest(costs: &[Vec<f64>], chosen: &[usize], beam: usize) -> usize {
-    let by_cost = |&a: &usize, &b: &usize| costs[chosen[a]][beam].total_cmp(&costs[chosen[b]][beam]);
+    let by_cost =
+        |&a: &usize, &b: &usize| costs[chosen[a]][beam].total_cmp(&costs[chosen[b]][beam]);
     (0..chosen.len()).min_by(by_cost).unwrap_or(0)
 }
 

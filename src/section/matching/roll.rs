@@ -28,7 +28,10 @@ pub(super) const FREEFORM_POINTS: usize = 48;
 
 impl Matched {
     /// The profile, turned onto the target.
-    pub(super) fn of(profile: Profile, target: &MatchTarget) -> Result<Self, MatchError> {
+    ///
+    /// # Errors
+    /// If the profile or the contour of the target has no area properties.
+    pub fn of(profile: Profile, target: &MatchTarget) -> Result<Self, MatchError> {
         let properties = profile.properties()?;
         let errors = MatchErrors::of(&properties, target);
         let symmetry = profile.shape.symmetry();
@@ -131,7 +134,8 @@ mod tests {
     use super::*;
 
     fn turned(shape: &Shape, angle: f64) -> MatchTarget {
-        let contours = Contours::of_region(&shape.region(), 12).moved(angle, Vector2::new(4.0, -7.0));
+        let contours =
+            Contours::of_region(&shape.region(), 12).moved(angle, Vector2::new(4.0, -7.0));
         MatchTarget::of_contours(contours).unwrap()
     }
 

@@ -174,15 +174,15 @@ fn element_matrix(mesh: &Mesh, t: &[u32; 3]) -> ([[f64; 6]; 6], f64) {
     let e: [Vector2<f64>; 3] = [c - b, a - c, b - a];
     let g = |i: usize, j: usize| e[i].dot(&e[j]) / (4.0 * area);
     let mut k = [[0.0; 6]; 6];
-    for i in 0..3 {
-        for j in 0..3 {
-            k[i][j] = if i == j { g(i, i) } else { -g(i, j) / 3.0 };
+    for (i, row) in k.iter_mut().enumerate().take(3) {
+        for (j, entry) in row.iter_mut().enumerate().take(3) {
+            *entry = if i == j { g(i, i) } else { -g(i, j) / 3.0 };
         }
-        for (s, [p, q]) in SIDES.into_iter().enumerate() {
-            if i == p || i == q {
-                k[i][3 + s] = 4.0 * g(p, q) / 3.0;
-                k[3 + s][i] = k[i][3 + s];
-            }
+    }
+    for (s, [p, q]) in SIDES.into_iter().enumerate() {
+        for corner in [p, q] {
+            k[corner][3 + s] = 4.0 * g(p, q) / 3.0;
+            k[3 + s][corner] = k[corner][3 + s];
         }
     }
     for (s, [p, q]) in SIDES.into_iter().enumerate() {

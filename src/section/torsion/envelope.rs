@@ -119,11 +119,10 @@ mod tests {
             [0.0, -0.3, 0.0, -1.0, 2.0],
         ];
         let mut matrix = Envelope::new(5, &elements);
-        for i in 0..5 {
-            for j in 0..=i {
-                if k[i][j] != 0.0 {
-                    matrix.add(i, j, k[i][j]);
-                }
+        for (i, row) in k.iter().enumerate() {
+            for (j, &entry) in row.iter().enumerate().filter(|&(j, &entry)| j <= i && entry != 0.0)
+            {
+                matrix.add(i, j, entry);
             }
         }
         let f = [1.0, -2.0, 0.5, 3.0, 1.5];

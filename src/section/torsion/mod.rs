@@ -34,7 +34,7 @@ mod mesh;
 use nalgebra::Point2;
 
 use super::error::SectionError;
-use super::properties::{Contours, sides};
+use super::properties::{Contours, sides, signed_area};
 use element::Stiffness;
 use mesh::{Mesh, triangulate};
 
@@ -50,6 +50,16 @@ pub const SHORTEST_SIDE: f64 = 0.03;
 /// A square bar is 2 thick, 50 triangles at this size, and 0.1 % off; twice as large, it is 0.5 %
 /// off, and half as large all takes twice the time.
 const LARGEST_TRIANGLE: f64 = 0.08;
+
+/// Inward turn from which a corner is sharp, rad: those of a circular hole of 24 corners (0.26)
+/// need no care, the fillet corners of a T (1.57) do.
+const SHARP_INWARD: f64 = 0.35;
+
+/// Farthest added corner, in wall thicknesses and as a part of the side, and the ratio of one
+/// distance to the next. Three distances down to 1/9 leave 0.1 % of a T.
+const GRADED_FROM: f64 = 0.2;
+const GRADED_PART: f64 = 0.4;
+const GRADING: f64 = 1.0 / 3.0;
 
 /// Torsion constant of a region, mm⁴.
 ///
@@ -76,6 +86,7 @@ pub fn torsion_constant(contours: &Contours) -> Result<f64, SectionError> {
         .polygons()
         .map(|polygon| thinned(polygon.iter().map(scaled).collect()))
         .filter(|polygon| polygon.len() > 2)
+        .map(|polygon| graded(&polygon))
         .collect();
     let mesh = triangulate(&polygons, LARGEST_TRIANGLE)?;
     let j = stress_function_integral(&mesh);
@@ -95,6 +106,34 @@ fn thinned(polygon: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
         kept.pop();
     }
     kept
+}
+
+/// Adds corners on the sides next to sharp inward corners, ever nearer to them.
+///
+/// There |∇φ| grows without bound, and even triangles would leave J of a T 0.5 % too small, of a
+/// noisy contour 1.5 %.
+fn graded(polygon: &[Point2<f64>]) -> Vec<Point2<f64>> {
+    let n = polygon.len();
+    let left = if signed_area(polygon) > 0.0 { 1.0 } else { -1.0 };
+    let inward = |i: usize| {
+        let (u, v) = (polygon[i] - polygon[(i + n - 1) % n], polygon[(i + 1) % n] - polygon[i]);
+        left * u.perp(&v).atan2(u.dot(&v)) < -SHARP_INWARD
+    };
+    let mut points = Vec::with_capacity(2 * n);
+    for i in 0..n {
+        let (p, q) = (polygon[i], polygon[(i + 1) % n]);
+        let length = (q - p).norm();
+        let from = GRADED_FROM.min(GRADED_PART * length);
+        let steps = [1.0, GRADING, GRADING * GRADING].map(|g| from * g / length);
+        points.push(p);
+        if inward(i) {
+            points.extend(steps.iter().rev().map(|t| p + (q - p) * *t));
+        }
+        if inward((i + 1) % n) {
+            points.extend(steps.iter().map(|t| q + (p - q) * *t));
+        }
+    }
+    points
 }
 
 /// 2 ∫ φ dA + 2 Σ c_k A_k on a triangulated region.
@@ -192,6 +231,27 @@ mod tests {
         outline.extend(arc(r - 0.5 * t).into_iter().rev());
         let j = torsion_constant(&Contours::solid(outline)).unwrap();
         assert!(j < 0.34 * TAU * r * t.powi(3), "{j}");
+    }
+
+    /// Two squares joined by a line that is run there and back.
+    #[test]
+    fn contour_may_run_twice_along_a_line() {
+        let corners = [
+            (0.0, 0.0),
+            (2.0, 0.0),
+            (2.0, 1.0),
+            (5.0, 1.0),
+            (5.0, 0.0),
+            (7.0, 0.0),
+            (7.0, 2.0),
+            (5.0, 2.0),
+            (5.0, 1.0),
+            (2.0, 1.0),
+            (2.0, 2.0),
+            (0.0, 2.0),
+        ];
+        let joined = Contours::solid(corners.map(|(x, y)| Point2::new(x, y)).to_vec());
+        check(&joined, 2.0 * 0.1406 * 16.0, 0.005);
     }
 
     #[test]
