@@ -74,10 +74,8 @@ impl LineGraph {
         }
         let mut new_index = vec![u32::MAX; points.len()];
         segments.iter().flatten().for_each(|&p| new_index[p as usize] = 0);
-        let mut kept = 0;
-        for index in new_index.iter_mut().filter(|i| **i == 0) {
+        for (kept, index) in (0..).zip(new_index.iter_mut().filter(|i| **i == 0)) {
             *index = kept;
-            kept += 1;
         }
         let mut at = new_index.iter();
         points.retain(|_| at.next() != Some(&u32::MAX));

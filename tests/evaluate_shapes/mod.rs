@@ -13,9 +13,9 @@ use nalgebra::{Isometry3, Point3};
 
 /// Points and triangles; those marked are non-design.
 #[derive(Clone, Default)]
-pub struct Shape {
-    pub points: Vec<Point3<f64>>,
-    pub triangles: Vec<([usize; 3], bool)>,
+pub(crate) struct Shape {
+    pub(crate) points: Vec<Point3<f64>>,
+    pub(crate) triangles: Vec<([usize; 3], bool)>,
 }
 
 impl Shape {
@@ -28,12 +28,12 @@ impl Shape {
         self.triangles.extend([([a, b, c], non_design), ([a, c, d], non_design)]);
     }
 
-    pub fn moved(&self, by: &Isometry3<f64>, scale: f64) -> Self {
+    pub(crate) fn moved(&self, by: &Isometry3<f64>, scale: f64) -> Self {
         let points = self.points.iter().map(|p| by * (p * scale)).collect();
         Self { points, triangles: self.triangles.clone() }
     }
 
-    pub fn surface(&self) -> Surface {
+    pub(crate) fn surface(&self) -> Surface {
         let mut obj = String::new();
         for p in &self.points {
             writeln!(obj, "v {:?} {:?} {:?}", p.x, p.y, p.z).unwrap();
@@ -51,7 +51,7 @@ impl Shape {
 
 /// Rod of `n` sides and radius 1 along x from 0 to `length`, in slices of 0.25; the first and last
 /// `pad` slices are non-design.
-pub fn rod(length: f64, n: usize, pad: usize) -> Shape {
+pub(crate) fn rod(length: f64, n: usize, pad: usize) -> Shape {
     let slices = (length / 0.25).round() as usize;
     let mut shape = Shape::default();
     for k in 0..=slices {
@@ -76,7 +76,7 @@ pub fn rod(length: f64, n: usize, pad: usize) -> Shape {
 }
 
 /// Ring about z: radius 4 to the axis, 1 of the section.
-pub fn ring() -> Shape {
+pub(crate) fn ring() -> Shape {
     let (n, m) = (96, 36);
     let mut shape = Shape::default();
     for i in 0..n {
@@ -97,7 +97,7 @@ pub fn ring() -> Shape {
 
 /// Three arms of 2 × 2 mm section in the plane z = 0, at 120° from each other, 12 mm from the middle
 /// to their tips.
-pub fn y_form() -> Shape {
+pub(crate) fn y_form() -> Shape {
     let mut shape = Shape::default();
     let turned = |k: usize, x: f64, y: f64| {
         let (s, c) = (TAU * k as f64 / 3.0).sin_cos();
@@ -142,7 +142,7 @@ pub fn y_form() -> Shape {
 }
 
 /// A skeleton of polylines; points at the same place are one.
-pub fn lines(polylines: &[Vec<Point3<f64>>]) -> Skeleton {
+pub(crate) fn lines(polylines: &[Vec<Point3<f64>>]) -> Skeleton {
     let mut obj = String::new();
     for line in polylines {
         for p in line {
@@ -156,20 +156,20 @@ pub fn lines(polylines: &[Vec<Point3<f64>>]) -> Skeleton {
 }
 
 /// Points at equal steps from `a` to `b`.
-pub fn line(a: [f64; 3], b: [f64; 3], steps: usize) -> Vec<Point3<f64>> {
+pub(crate) fn line(a: [f64; 3], b: [f64; 3], steps: usize) -> Vec<Point3<f64>> {
     let (a, b) = (Point3::from(a), Point3::from(b));
     (0..=steps).map(|k| a + (b - a) * (k as f64 / steps as f64)).collect()
 }
 
 /// The same skeleton elsewhere.
-pub fn moved(skeleton: &Skeleton, by: &Isometry3<f64>, scale: f64) -> Skeleton {
+pub(crate) fn moved(skeleton: &Skeleton, by: &Isometry3<f64>, scale: f64) -> Skeleton {
     let mut moved = skeleton.clone();
     moved.points.iter_mut().for_each(|p| p.position = by * (p.position * scale));
     moved
 }
 
 /// Evaluation with a cube that holds the section of a rod of radius 1.
-pub fn measured(shape: &Shape, skeleton: &Skeleton) -> Evaluation {
+pub(crate) fn measured(shape: &Shape, skeleton: &Skeleton) -> Evaluation {
     let options = EvaluateOptions { cube_half: Some(1.75), ..EvaluateOptions::default() };
     evaluate(&shape.surface(), skeleton, &options).unwrap()
 }
