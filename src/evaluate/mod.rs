@@ -28,7 +28,7 @@
 //! | `points_outside`, `outside` | points and length outside of the object | `outside` |
 //! | `topology` | components, cycles, free ends, against those of the mesh | `topology` |
 //! | `coverage` | surface that no branch runs under | `coverage` |
-//! | [`compare`] | D₁₂ and Hausdorff distance of two skeletons (§2.4.2.2, eq. 2.1) | `compare` |
+//! | [`compare()`] | D₁₂ and Hausdorff distance of two skeletons (§2.4.2.2, eq. 2.1) | `compare` |
 //!
 //! Skeletons of other programs are read by [`skeleton_file`](crate::skeleton_file) and made
 //! comparable by [`Evaluator::post_process`] (§4.3.1.3).
@@ -38,7 +38,7 @@
 //! * The cube is aligned with the axes and the first ray goes to the first crossing in the order of
 //!   the mesh, both as in the thesis: `e_center` changes a little when the part is turned. The
 //!   figures with true rays change only by the 10° between rays.
-//! * Cavities and floating islands are no part of the surface (see [`prepare`](crate::mesh::prepare)),
+//! * Cavities and floating islands are no part of the surface (see [`prepare`](crate::mesh::prepare())),
 //!   so they do not count here either.
 //!
 //! # Where the thesis leaves a choice
