@@ -33,8 +33,8 @@ const GAUSS: [(f64, f64); 5] = [
     (0.973_906_528_517_171_7, 0.066_671_344_308_688_1),
 ];
 
-/// Parts of a cubic or arc in which roots of one coordinate are looked for; a quarter turn and a
-/// span of a section outline turn back at most once in a coordinate, so that 8 part the roots.
+/// Parts of a piece in which roots are looked for and lengths are summed; a quarter turn and a span
+/// of a section outline turn back at most once in a coordinate, so that 8 part the roots.
 const ROOT_PARTS: usize = 8;
 
 impl Piece {
@@ -70,21 +70,30 @@ impl Piece {
         }
     }
 
-    /// ∫ f(point, derivative) dt over t in [`from`, `to`].
-    pub(crate) fn integrate(
+    /// Calls `f(point, derivative, weight)` at the Gauss points of t in [`from`, `to`].
+    pub(crate) fn visit(
         &self,
         [from, to]: [f64; 2],
-        mut f: impl FnMut(Point2<f64>, Vector2<f64>) -> f64,
-    ) -> f64 {
+        mut f: impl FnMut(Point2<f64>, Vector2<f64>, f64),
+    ) {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let mut sum = 0.0;
         for (node, weight) in GAUSS {
             for t in [middle - half * node, middle + half * node] {
                 let (p, d) = self.at(t);
-                sum += weight * f(p, d);
+                f(p, d, half * weight);
             }
         }
-        half * sum
+    }
+
+    /// ∫ f(point, derivative) dt over t in [`from`, `to`].
+    pub(crate) fn integrate(
+        &self,
+        range: [f64; 2],
+        f: impl Fn(Point2<f64>, Vector2<f64>) -> f64,
+    ) -> f64 {
+        let mut sum = 0.0;
+        self.visit(range, |p, d, weight| sum += weight * f(p, d));
+        sum
     }
 
     /// Enclosed area ½ ∮ (x dy − y dx), mm²; positive if counter-clockwise.
@@ -94,13 +103,17 @@ impl Piece {
 
     /// Length of the chain, mm.
     pub(crate) fn length(pieces: &[Self]) -> f64 {
-        let part = 1.0 / ROOT_PARTS as f64;
-        let parts = |piece: &Self| -> f64 {
-            (0..ROOT_PARTS)
-                .map(|i| piece.integrate([i as f64 * part, (i + 1) as f64 * part], |_, d| d.norm()))
-                .sum()
-        };
-        pieces.iter().map(parts).sum()
+        pieces.iter().map(Self::own_length).sum()
+    }
+
+    fn own_length(&self) -> f64 {
+        match self {
+            Self::Line { from, to } => (to - from).norm(),
+            Self::Arc { p, q, sweep, .. } if p.norm() == q.norm() && p.dot(q) == 0.0 => {
+                p.norm() * sweep
+            }
+            _ => (0..ROOT_PARTS).map(|i| self.integrate(part(i), |_, d| d.norm())).sum(),
+        }
     }
 
     /// Parameters where a function of the point changes sign, ascending, within (0, 1).
@@ -111,13 +124,18 @@ impl Piece {
         };
         let mut roots = Vec::new();
         for i in 0..ROOT_PARTS {
-            let ends = [i, i + 1].map(|k| k as f64 / ROOT_PARTS as f64);
+            let ends = part(i);
             if (value(ends[0]) < 0.0) != (value(ends[1]) < 0.0) {
                 roots.push(bisect(ends, value));
             }
         }
         roots
     }
+}
+
+/// The range of t of one part of a piece.
+fn part(i: usize) -> [f64; 2] {
+    [i, i + 1].map(|k| k as f64 / ROOT_PARTS as f64)
 }
 
 /// ∮ f dt over all pieces.

@@ -25,7 +25,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::error::SectionError;
 use super::outline::Region;
-use super::piece::{Piece, sum_over};
+use super::piece::Piece;
 use super::torsion::torsion_constant;
 
 /// A region of the section plane given as polygons.
@@ -172,18 +172,23 @@ impl Moments {
         if m.area < 0.0 { m.scaled(-1.0) } else { m }
     }
 
-    /// Moments of the region on the left of a chain of pieces.
+    /// Moments of the region on the left of a chain of pieces:
+    /// A = ½ ∮ (x dy − y dx), S_x = ½ ∮ x² dy, S_y = −½ ∮ y² dx, I_xx = ∮ x y² dy,
+    /// I_yy = ⅓ ∮ x³ dy, I_xy = ½ ∮ x² y dy.
     pub(crate) fn of_pieces(pieces: &[Piece]) -> Self {
-        Self {
-            area: Piece::area(pieces),
-            first: Vector2::new(
-                sum_over(pieces, |p, d| 0.5 * p.x * p.x * d.y),
-                sum_over(pieces, |p, d| -0.5 * p.y * p.y * d.x),
-            ),
-            i_xx: sum_over(pieces, |p, d| p.x * p.y * p.y * d.y),
-            i_yy: sum_over(pieces, |p, d| p.x.powi(3) * d.y / 3.0),
-            i_xy: sum_over(pieces, |p, d| 0.5 * p.x * p.x * p.y * d.y),
+        let mut m = Self::default();
+        for piece in pieces {
+            piece.visit([0.0, 1.0], |p, d, weight| {
+                let (dx, dy) = (weight * d.x, weight * d.y);
+                m.area += 0.5 * (p.x * dy - p.y * dx);
+                m.first.x += 0.5 * p.x * p.x * dy;
+                m.first.y -= 0.5 * p.y * p.y * dx;
+                m.i_xx += p.x * p.y * p.y * dy;
+                m.i_yy += p.x * p.x * p.x * dy / 3.0;
+                m.i_xy += 0.5 * p.x * p.x * p.y * dy;
+            });
         }
+        m
     }
 
     fn scaled(self, s: f64) -> Self {

@@ -16,6 +16,7 @@ mod json;
 mod listing;
 mod row;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -114,7 +115,7 @@ impl Catalogue {
     }
 
     fn of_rows(rows: Vec<row::Row>) -> Result<Self, CatalogueError> {
-        let mut seen = std::collections::BTreeMap::new();
+        let mut seen = BTreeMap::new();
         let mut entries = Vec::with_capacity(rows.len());
         for row in rows {
             let entry = row.entry()?;
@@ -135,9 +136,11 @@ impl Catalogue {
 
     /// Adds the profiles of another catalogue; those with a name already there replace it.
     pub fn extend(&mut self, other: Self) {
+        let named = |(place, entry): (usize, &Entry)| (entry.name().to_owned(), place);
+        let places: BTreeMap<String, usize> = self.entries.iter().enumerate().map(named).collect();
         for entry in other.entries {
-            match self.entries.iter_mut().find(|own| own.name() == entry.name()) {
-                Some(own) => *own = entry,
+            match places.get(entry.name()) {
+                Some(&place) => self.entries[place] = entry,
                 None => self.entries.push(entry),
             }
         }

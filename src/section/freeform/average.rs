@@ -9,7 +9,7 @@
 //!    such that the spline through the samples has the mean area, the mean principal direction and
 //!    the mean ratio of I_1 to I_2.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix2, Point2, Rotation2, Vector2};
 
@@ -188,7 +188,10 @@ fn with_moments_of(curve: &Freeform, goal: &Moments) -> Freeform {
     let s = if has_axis { (g_1 * i_2 / (g_2 * i_1)).powf(-0.25) } else { 1.0 };
     let size = (goal.area / central.area).abs().sqrt();
     let stretch = Matrix2::from_diagonal(&Vector2::new(size * s, size / s));
-    let (from, to) = if has_axis { (angle, goal_angle) } else { (0.0, 0.0) };
+    let from = if has_axis { angle } else { 0.0 };
+    // An axis has two directions: the smaller turn keeps what is left of it on its side.
+    let lesser = |turn: f64| turn - (turn / PI).round() * PI;
+    let to = if has_axis { from + lesser(goal_angle - from) } else { 0.0 };
     let map = Rotation2::new(to).matrix() * stretch * Rotation2::new(-from).matrix();
     curve.mapped(|p| (map * (p - centroid)).into())
 }
@@ -252,6 +255,25 @@ mod tests {
         assert!((mean.area / exact.area - 1.0).abs() < 1e-9);
         assert!((mean.i_xx / exact.i_xx - 1.0).abs() < 0.05);
         assert!((mean.i_yy / exact.i_yy - 1.0).abs() < 0.05);
+    }
+
+    /// An egg, whose strong axis lies along y: its angle is 90° or −90° as roundings fall.
+    #[test]
+    fn outline_is_not_turned_end_for_end() {
+        for tilt in [-1e-3, -1e-6, 0.0, 1e-6, 1e-3] {
+            let egg: Vec<Point2<f64>> = (0..96)
+                .map(|i| {
+                    let (sin, cos) = (TAU * f64::from(i) / 96.0).sin_cos();
+                    Rotation2::new(tilt) * Point2::new(6.0 * cos + 0.8 * cos * cos, 4.0 * sin)
+                })
+                .collect();
+            let centroid = Contours::solid(egg.clone()).moments().unwrap().centroid();
+            let farthest = |points: &mut dyn Iterator<Item = f64>| points.fold(0.0, f64::max);
+            let reach = farthest(&mut egg.iter().map(|p| p.x - centroid.x));
+            let mean = average_outline(&[egg], 48).unwrap();
+            let own = farthest(&mut mean.points().iter().map(|p| p.x));
+            assert!((own / reach - 1.0).abs() < 0.01, "tilt {tilt}: {own} for {reach}");
+        }
     }
 
     #[test]

@@ -124,7 +124,7 @@ pub enum MatchError {
 /// let target = MatchTarget::of_properties(&bar);
 /// let choice: ProfileChoice = "catalogue:CHS".parse()?;
 /// let matched = match_profile(&target, &choice, MatchMode::Stiffness, Catalogue::builtin())?;
-/// assert_eq!(matched.profile.to_string(), "CHS 48.3x4"); // I = 13.8 cm⁴ for 12.6 cm⁴
+/// assert_eq!(matched.profile.to_string(), "CHS 48.3x3.2"); // I = 11.6 cm⁴ for 12.6 cm⁴
 /// assert!(matched.errors.area < -0.5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -57,7 +57,8 @@ fn extremes<'p>(
     turning: impl Fn(&Piece) -> Vec<f64> + 'p,
 ) -> impl Iterator<Item = Point2<f64>> + 'p {
     pieces.iter().flat_map(move |piece| {
-        let mut at = turning(piece);
+        // Along a line both distances and coordinates are greatest at an end.
+        let mut at = if matches!(piece, Piece::Line { .. }) { Vec::new() } else { turning(piece) };
         at.push(0.0);
         at.into_iter().map(|t| piece.at(t).0)
     })
