@@ -9,11 +9,16 @@ use std::path::{Path, PathBuf};
 use beamwright_formats::{ReadError, ReadOptions, read};
 
 use crate::finding::{Finding, FindingKind};
-use crate::frame::{self, Frame, FrameParams, Section, normalize};
+use crate::frame::{
+    self, Frame, FrameParams, Normalized, ProfileParams, Section, match_profiles, normalize,
+};
 use crate::mesh::indexed::{IndexedMesh, weld};
 use crate::mesh::label::{LabelParams, LabelSource};
 use crate::mesh::{MeshError, Surface, prepare};
 use crate::observer::{Observer, Stage};
+use crate::section::Catalogue;
+use crate::section::catalogue::CatalogueError;
+use crate::section::matching::MatchError;
 use crate::skeleton::params::OutOfRange;
 use crate::skeleton::{self, Marched, Skeleton, SkeletonError, SkeletonParams};
 
@@ -30,6 +35,10 @@ pub struct Settings {
     pub skeleton: SkeletonParams,
     /// Normalization.
     pub frame: FrameParams,
+    /// Profiles.
+    pub profiles: ProfileParams,
+    /// Files with the user's own profiles, searched besides the built-in ones.
+    pub catalogue_files: Vec<PathBuf>,
 }
 
 /// What a run produced.
@@ -73,6 +82,12 @@ pub enum PipelineError {
     /// A parameter is out of its range.
     #[error(transparent)]
     Params(#[from] OutOfRange),
+    /// The user's profiles cannot be read.
+    #[error(transparent)]
+    Catalogue(#[from] CatalogueError),
+    /// A beam finds no profile.
+    #[error("no profile for the beams: {0}")]
+    Match(#[from] MatchError),
     /// The observer asked to stop.
     #[error("interrupted")]
     Cancelled,
@@ -135,15 +150,27 @@ pub fn run(
     observer: &mut impl Observer,
 ) -> Result<Outcome, PipelineError> {
     settings.frame.check()?;
+    let catalogue = catalogue(settings)?;
     let (surface, Marched { skeleton, mut findings }) = march(path, settings, observer)?;
     step(observer, Stage::Sections, 0)?;
     let sections = frame::sections(&surface, &skeleton);
     step(observer, Stage::Frame, 0)?;
-    let normalized = normalize(&skeleton, &sections, &surface.interfaces, &settings.frame);
+    let Normalized { mut frame, findings: odd } =
+        normalize(&skeleton, &sections, &surface.interfaces, &settings.frame);
+    findings.extend(odd);
+    findings.extend(match_profiles(&mut frame, &settings.profiles, &catalogue)?);
     step(observer, Stage::Frame, 1)?;
-    findings.extend(normalized.findings);
     breaches_first(&mut findings);
-    Ok(Outcome { surface, skeleton, sections, frame: normalized.frame, findings })
+    Ok(Outcome { surface, skeleton, sections, frame, findings })
+}
+
+/// The built-in profiles and those of the user.
+fn catalogue(settings: &Settings) -> Result<Catalogue, PipelineError> {
+    let mut all = Catalogue::builtin().clone();
+    for file in &settings.catalogue_files {
+        all.extend(Catalogue::read(file)?);
+    }
+    Ok(all)
 }
 
 fn step(observer: &mut impl Observer, stage: Stage, done: usize) -> Result<(), PipelineError> {

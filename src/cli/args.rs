@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use beamwright::frame::FrameParams;
+use beamwright::frame::{FrameParams, Loft, ProfileParams};
 use beamwright::mesh::LabelParams;
 use beamwright::mesh::label::DEFAULT_NAMES;
 use beamwright::pipeline::Settings;
+use beamwright::section::{MatchMode, ProfileChoice};
 use beamwright::skeleton::{Orientation, SkeletonParams};
 use beamwright_formats::{ReadOptions, Unit};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -182,6 +183,37 @@ pub(crate) struct FrameArgs {
     /// Farthest a branch may bend away from one straight beam, in section radii
     #[arg(long, value_name = "RADII", default_value_t = FrameParams::default().max_deviation)]
     pub(crate) max_deviation: f64,
+
+    /// Profiles: auto, round, tube, rectangle, box, ellipse, i, c, l, freeform,
+    /// catalogue[:FAMILY,...]
+    #[arg(long, value_name = "CHOICE", default_value = "auto")]
+    pub(crate) profile: ProfileChoice,
+
+    /// What must agree: stiffness, area, not-weaker
+    #[arg(long = "match", value_name = "MODE", default_value = "stiffness")]
+    pub(crate) match_mode: MatchMode,
+
+    /// How the shape runs along a beam
+    #[arg(long, value_name = "HOW", default_value = "constant")]
+    pub(crate) loft: LoftArg,
+
+    /// Most different profiles over the whole frame
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) max_profiles: Option<u32>,
+
+    /// Your own profiles (.csv, .json), searched besides the built-in ones; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) catalogue: Vec<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LoftArg {
+    /// The mean section all along
+    Constant,
+    /// Straight from end section to end section
+    Taper,
+    /// Through several sections
+    Multi,
 }
 
 #[derive(Args, Debug)]
@@ -241,8 +273,22 @@ impl From<&MarchArgs> for SkeletonParams {
 
 impl From<&FrameArgs> for FrameParams {
     fn from(args: &FrameArgs) -> Self {
-        let FrameArgs { max_deviation } = *args;
-        Self { max_deviation }
+        Self { max_deviation: args.max_deviation }
+    }
+}
+
+impl From<&FrameArgs> for ProfileParams {
+    fn from(args: &FrameArgs) -> Self {
+        Self {
+            choice: args.profile.clone(),
+            mode: args.match_mode,
+            loft: match args.loft {
+                LoftArg::Constant => Loft::Constant,
+                LoftArg::Taper => Loft::Taper,
+                LoftArg::Multi => Loft::Multi,
+            },
+            max_profiles: args.max_profiles.map(|n| n as usize),
+        }
     }
 }
 
@@ -262,6 +308,7 @@ mod tests {
         let Command::Reconstruct(args) = cli.command else { panic!("another subcommand") };
         assert_eq!(SkeletonParams::from(&args.march), SkeletonParams::default());
         assert_eq!(FrameParams::from(&args.frame), FrameParams::default());
+        assert_eq!(ProfileParams::from(&args.frame), ProfileParams::default());
         assert_eq!(args.input.settings().labels.names, LabelParams::default().names);
     }
 

@@ -22,6 +22,8 @@ pub(crate) fn run(
     let mut settings = args.input.settings();
     settings.skeleton = (&args.march).into();
     settings.frame = (&args.frame).into();
+    settings.profiles = (&args.frame).into();
+    settings.catalogue_files = args.frame.catalogue.clone();
     let outcome = pipeline::run(&args.input.input, &settings, progress)?;
     let name = show::name_of(&args.input.input);
     let summary = Summary::new(name, &outcome.surface, &outcome.findings)

@@ -82,8 +82,8 @@ impl Moments {
         m
     }
 
-    /// Σ of parts, each times its factor.
-    fn sum(parts: impl Iterator<Item = (f64, Self)>) -> Self {
+    /// Σ of parts, each times its factor; a mean where the factors add up to 1.
+    pub(crate) fn mean(parts: impl Iterator<Item = (f64, Self)>) -> Self {
         parts.fold(Self::default(), |s, (f, m)| Self {
             area: s.area + f * m.area,
             i_yy: s.i_yy + f * m.i_yy,
@@ -196,7 +196,7 @@ fn weigh(stations: &mut [BeamStation]) {
 
 fn mean(stations: &[BeamStation]) -> Moments {
     let total: f64 = stations.iter().map(|s| s.weight).sum();
-    Moments::sum(stations.iter().map(|s| (s.weight / total, s.moments)))
+    Moments::mean(stations.iter().map(|s| (s.weight / total, s.moments)))
 }
 
 /// End values by straight lines; never below a tenth of the mean.

@@ -13,10 +13,12 @@
 //! | 3 | all nodes moved so that the axes run in the middle of the material | `solve` |
 //! | 4 | nodes closer than a section radius made one | `normalize` |
 //! | 5 | mean and end values of the sections along each beam | [`beam_section`] |
+//! | 6 | a profile for every beam | [`profiles`] |
 
 pub mod beam_section;
 pub mod normalize;
 pub mod params;
+pub mod profiles;
 pub mod section_at;
 pub mod shape;
 mod solve;
@@ -24,9 +26,10 @@ mod straighten;
 
 pub use beam_section::{BeamAxes, BeamSection, Moments};
 pub use normalize::{Normalized, normalize};
-pub use params::FrameParams;
+pub use params::{FrameParams, ProfileParams};
+pub use profiles::match_profiles;
 pub use section_at::{Section, sections};
-pub use shape::{Loft, Shape};
+pub use shape::{BeamShape, Loft};
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -74,10 +77,14 @@ pub struct Beam {
     pub axes: BeamAxes,
     /// Length between the nodes, mm.
     pub length: f64,
+    /// Length it is cut to: that of the beams equal to it, mm.
+    pub cut_length: f64,
     /// What the sections along it say.
     pub section: BeamSection,
+    /// Section area to assume where nothing was measured, mm².
+    pub assumed_area: f64,
     /// The solid it is built as.
-    pub shape: Shape,
+    pub shape: BeamShape,
 }
 
 /// All nodes and beams.

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::beam_section::{BeamAxes, BeamSection};
 use super::params::FrameParams;
 use super::section_at::Section;
-use super::shape::{Loft, freeform, round};
+use super::shape::BeamShape;
 use super::solve::{Pull, solve_nodes};
 use super::straighten::{breaks, distance_to_segment};
 use super::{Beam, Frame, Node, NodeId, NodeKind, direction};
@@ -258,14 +258,15 @@ fn beam(piece: &Piece, nodes: &[Node], sections: &[Option<Section>], fallback: f
     let free = BeamAxes::along(direction(&a, &b));
     let (.., angle) = BeamSection::new(&found, a, length, &free).mean.principal();
     let axes = free.rolled(angle);
-    let section = BeamSection::new(&found, a, length, &axes);
-    let shape = freeform(&section, Loft::Constant).unwrap_or_else(|| round(fallback));
+    let assumed_area = std::f64::consts::PI * fallback * fallback;
     Beam {
         ends: piece.ends.map(NodeId::new),
         branch: piece.branch as u32,
         axes,
         length,
-        section,
-        shape,
+        cut_length: length,
+        section: BeamSection::new(&found, a, length, &axes),
+        assumed_area,
+        shape: BeamShape::unmatched(assumed_area),
     }
 }

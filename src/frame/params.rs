@@ -1,5 +1,7 @@
 //! What normalization can be told.
 
+use super::shape::Loft;
+use crate::section::{MatchMode, ProfileChoice};
 use crate::skeleton::params::OutOfRange;
 
 /// Parameters of normalization (thesis §5.2.3).
@@ -34,4 +36,17 @@ impl FrameParams {
             })
         }
     }
+}
+
+/// Which profiles the beams get.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ProfileParams {
+    /// Which profiles a beam may get.  Default: the simplest that covers its contour.
+    pub choice: ProfileChoice,
+    /// What must agree between profile and section.  Default: the bending stiffness.
+    pub mode: MatchMode,
+    /// How the shape runs along a beam.  Default: constant.
+    pub loft: Loft,
+    /// Most different profiles over the whole frame.  Default: no bound.
+    pub max_profiles: Option<usize>,
 }

@@ -1,10 +1,10 @@
-//! The solid shape of a beam: which outline stands where along it.
+//! The solid a beam is built as: its profile, and which outline stands where along it.
 
-use nalgebra::Point2;
+use std::f64::consts::PI;
 
-use super::beam_section::{BeamSection, Moments};
-use crate::section::freeform::average_outline;
-use crate::section::outline::{Outline, Region};
+use crate::section::matching::{MatchErrors, Matched};
+use crate::section::outline::Region;
+use crate::section::{Profile, SectionProperties, Shape};
 
 /// How the shape runs from one end of a beam to the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,14 +14,22 @@ pub enum Loft {
     Constant,
     /// Straight from the section at one end to that at the other.
     Taper,
+    /// Through the sections along the beam.
+    Multi,
 }
 
-/// The outlines along a beam, in its axes y and z.
+/// The solid of a beam, in its axes turned by `roll`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shape {
-    /// What it is called in lists and files: "Round 12.5".
-    pub name: String,
-    /// Outlines from the first node to the second.
+pub struct BeamShape {
+    /// The profile that stands for the beam in lists.
+    pub profile: Profile,
+    /// Properties of the profile about its own axes.
+    pub properties: SectionProperties,
+    /// Angle from the beam's axis y to that of the profile, rad.
+    pub roll: f64,
+    /// Relative errors of the profile against the mean section; `None` where nothing was measured.
+    pub errors: Option<MatchErrors>,
+    /// Outlines from the first node to the second; at least two.
     pub stations: Vec<ShapeStation>,
 }
 
@@ -34,32 +42,67 @@ pub struct ShapeStation {
     pub region: Region,
 }
 
-/// Points of a freeform outline: a round one is followed within a thousandth of its radius.
-const OUTLINE_POINTS: usize = 32;
+impl BeamShape {
+    /// The matched profile all along the beam.
+    pub fn constant(matched: Matched) -> Self {
+        let region = matched.profile.region();
+        Self {
+            roll: matched.roll,
+            errors: Some(matched.errors),
+            properties: matched.properties,
+            profile: matched.profile,
+            stations: both_ends(region),
+        }
+    }
 
-/// The averaged real contour of a beam, constant or scaled to the areas at its ends.
-pub fn freeform(section: &BeamSection, loft: Loft) -> Option<Shape> {
-    let contours: Vec<Vec<Point2<f64>>> =
-        section.stations.iter().filter(|s| s.weight >= 0.5).map(|s| s.contour.clone()).collect();
-    let mean = average_outline(&contours, OUTLINE_POINTS).ok()?;
-    let scaled = |to: &Moments| {
-        let factor = (to.area / section.mean.area).sqrt();
-        let points = mean.points().iter().map(|p| p * factor).collect();
-        let outer = Outline::Freeform(crate::section::freeform::Freeform::through(points).ok()?);
-        Some(Region::solid(outer))
-    };
-    let [from, to] = match loft {
-        Loft::Constant => [scaled(&section.mean)?, scaled(&section.mean)?],
-        Loft::Taper => [scaled(&section.ends[0])?, scaled(&section.ends[1])?],
-    };
-    let stations =
-        vec![ShapeStation { at: 0.0, region: from }, ShapeStation { at: 1.0, region: to }];
-    Some(Shape { name: format!("Freeform {:.0} mm²", section.mean.area), stations })
+    /// A profile nothing was measured for.
+    pub fn assumed(profile: Profile, properties: SectionProperties) -> Self {
+        let stations = both_ends(profile.region());
+        Self { profile, properties, roll: 0.0, errors: None, stations }
+    }
+
+    /// A round bar of an area, until the beam is matched.
+    pub(crate) fn unmatched(area: f64) -> Self {
+        let shape = Shape::Round { d: round_of_area(area) };
+        let radius = (area / PI).sqrt();
+        let i = 0.25 * PI * radius.powi(4);
+        let properties = SectionProperties {
+            area,
+            centroid: nalgebra::Point2::origin(),
+            i_xx: i,
+            i_yy: i,
+            i_xy: 0.0,
+            i_1: i,
+            i_2: i,
+            principal_angle: 0.0,
+            i_p: 2.0 * i,
+            j: 2.0 * i,
+            perimeter: 2.0 * PI * radius,
+            reach: radius,
+        };
+        Self::assumed(Profile { shape, designation: None }, properties)
+    }
+
+    /// Whether the section is the same all along.
+    pub fn is_constant(&self) -> bool {
+        self.stations.windows(2).all(|w| w[0].region == w[1].region)
+    }
+
+    /// Name for lists and files: that of the profile, and of a taper the sizes at both ends.
+    pub fn name(&self) -> String {
+        if self.is_constant() {
+            self.profile.to_string()
+        } else {
+            format!("{} tapered", self.profile)
+        }
+    }
 }
 
-/// A round bar.
-pub fn round(radius: f64) -> Shape {
-    let region = Region::solid(Outline::circle(radius));
-    let stations = [0.0, 1.0].map(|at| ShapeStation { at, region: region.clone() }).to_vec();
-    Shape { name: format!("Round {:.1}", 2.0 * radius), stations }
+fn both_ends(region: Region) -> Vec<ShapeStation> {
+    vec![ShapeStation { at: 0.0, region: region.clone() }, ShapeStation { at: 1.0, region }]
+}
+
+/// Diameter of the round bar of an area, mm.
+pub(crate) fn round_of_area(area: f64) -> f64 {
+    2.0 * (area / PI).sqrt()
 }

@@ -250,10 +250,9 @@ fn keep_faces(soup: &mut IndexedMesh, twins: &mut Vec<u32>, keep: &[bool]) {
         return;
     }
     let mut new_index = vec![0u32; keep.len()];
-    let mut kept = 0;
-    for (f, _) in keep.iter().enumerate().filter(|k| *k.1) {
-        new_index[f] = kept;
-        kept += 1;
+    let kept = (0..keep.len()).filter(|&f| keep[f]);
+    for (new, f) in (0..).zip(kept) {
+        new_index[f] = new;
     }
     let mut f = 0;
     soup.triangles.retain(|_| (keep[f], f += 1).0);

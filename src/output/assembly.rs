@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 
 use super::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
-use crate::frame::shape::{Shape, ShapeStation};
+use crate::frame::shape::{BeamShape, ShapeStation};
 use crate::frame::{Beam, Frame};
 use crate::section::outline::{Outline, Segment};
 
@@ -32,10 +32,10 @@ pub fn mark(index: usize) -> String {
 /// # Errors
 /// A shape that is no solid.
 pub fn document(name: &str, frame: &Frame, density: f64) -> Result<Document, step::BodyError> {
-    let mut profiles: Vec<&str> = Vec::new();
+    let mut profiles: Vec<String> = Vec::new();
     let mut parts = Vec::with_capacity(frame.beams.len());
     for (i, beam) in frame.beams.iter().enumerate() {
-        let profile = beam.shape.name.as_str();
+        let profile = beam.shape.name();
         let colour = profiles.iter().position(|p| *p == profile).unwrap_or_else(|| {
             profiles.push(profile);
             profiles.len() - 1
@@ -53,17 +53,18 @@ fn part(
     colour: [u8; 3],
     density: f64,
 ) -> Result<Part, step::BodyError> {
-    let body = body(&beam.shape, beam.length)?;
+    let body = body(&beam.shape, beam.cut_length)?;
+    let name = beam.shape.name();
     let volume = body.volume()?;
     let properties = vec![
-        Property::text("profile", beam.shape.name.clone()),
-        Property::new("length", Value::Length(beam.length)),
-        Property::new("area", Value::Area(beam.section.mean.area)),
+        Property::text("profile", name.clone()),
+        Property::new("length", Value::Length(beam.cut_length)),
+        Property::new("area", Value::Area(beam.shape.properties.area)),
         Property::new("mass", Value::Mass(volume * density * 1e-9)),
     ];
     Ok(Part {
-        name: format!("{} {}", mark(index), beam.shape.name),
-        product: format!("{} L={:.1}", beam.shape.name, beam.length),
+        name: format!("{} {name}", mark(index)),
+        product: format!("{name} L={:.1}", beam.cut_length),
         colour,
         placement: placement(beam, frame),
         body,
@@ -74,14 +75,14 @@ fn part(
 /// From the coordinates of the body (x, y across, z along) to those of the model.
 fn placement(beam: &Beam, frame: &Frame) -> Isometry3<f64> {
     let [start, _] = frame.axis(beam);
-    let axes = beam.axes;
+    let axes = beam.axes.rolled(beam.shape.roll);
     let columns = Matrix3::from_columns(&[*axes.y, *axes.z, *axes.x]);
     let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(columns));
     Isometry3::from_parts(Translation3::from(start.coords), turn)
 }
 
 /// The loft of a shape over a length.
-fn body(shape: &Shape, length: f64) -> Result<Body, step::BodyError> {
+fn body(shape: &BeamShape, length: f64) -> Result<Body, step::BodyError> {
     let stations = shape
         .stations
         .iter()

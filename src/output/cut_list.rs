@@ -16,7 +16,7 @@ pub struct CutListRow {
     pub profile: String,
     /// Length, mm.
     pub length_mm: f64,
-    /// Mean section area, mm².
+    /// Area of the profile, mm².
     pub area_mm2: f64,
     /// Mass, kg.
     pub mass_kg: f64,
@@ -32,10 +32,10 @@ pub fn rows(frame: &Frame, density: f64) -> Vec<CutListRow> {
         .enumerate()
         .map(|(i, beam)| CutListRow {
             mark: mark(i),
-            profile: guarded(&beam.shape.name),
-            length_mm: rounded(beam.length, 3),
-            area_mm2: rounded(beam.section.mean.area, 3),
-            mass_kg: rounded(beam.length * beam.section.mean.area * density * 1e-9, 6),
+            profile: guarded(&beam.shape.name()),
+            length_mm: rounded(beam.cut_length, 3),
+            area_mm2: rounded(beam.shape.properties.area, 3),
+            mass_kg: rounded(beam.cut_length * beam.shape.properties.area * density * 1e-9, 6),
             branch: beam.branch,
         })
         .collect()

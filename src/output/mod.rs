@@ -3,6 +3,8 @@
 pub mod assembly;
 pub mod cut_list;
 pub mod files;
+pub mod mesh_export;
+pub mod mlp;
 pub mod step;
 pub mod summary;
 

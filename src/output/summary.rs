@@ -103,7 +103,7 @@ pub struct FrameSummary {
     pub beams: usize,
     /// Length of all beams between their nodes, mm.
     pub length: f64,
-    /// Σ mean section area × length, mm³.
+    /// Σ profile area × length, mm³.
     pub volume: f64,
     /// Volume of the design part, mm³.
     pub design_volume: f64,
@@ -166,7 +166,7 @@ impl Summary {
             nodes: frame.nodes.len(),
             beams: frame.beams.len(),
             length: frame.beams.iter().map(|b| b.length).sum(),
-            volume: frame.beams.iter().map(|b| b.length * b.section.mean.area).sum(),
+            volume: frame.beams.iter().map(|b| b.length * b.shape.properties.area).sum(),
             design_volume: surface.design_volume(),
         });
         self

@@ -20,10 +20,7 @@ impl Homotopy {
     pub fn of(surface: &Surface) -> Self {
         let pieces =
             patches(&surface.mesh, |f| surface.labels.is_design(f), &[], &surface.interfaces);
-        Self {
-            components: pieces.all.len(),
-            cycles: pieces.all.iter().map(|p| p.genus).sum(),
-        }
+        Self { components: pieces.all.len(), cycles: pieces.all.iter().map(|p| p.genus).sum() }
     }
 }
 
@@ -48,8 +45,9 @@ fn points_outside(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
 }
 
 fn segments_outside(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
-    let crosses =
-        |[a, b]: &[u32; 2]| surface.tree.is_crossed_by(&skeleton.position(*a), &skeleton.position(*b));
+    let crosses = |[a, b]: &[u32; 2]| {
+        surface.tree.is_crossed_by(&skeleton.position(*a), &skeleton.position(*b))
+    };
     let mut leaving = skeleton.segments().filter(crosses);
     let [a, b] = leaving.next()?;
     let place = nalgebra::center(&skeleton.position(a), &skeleton.position(b));
@@ -76,8 +74,7 @@ fn topology(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
 }
 
 fn interface_ends(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
-    let wanted =
-        surface.interfaces.iter().filter(|i| i.kind == InterfaceKind::Section).count();
+    let wanted = surface.interfaces.iter().filter(|i| i.kind == InterfaceKind::Section).count();
     let found = skeleton.count(PointKind::Interface);
     (found < wanted).then(|| {
         Finding::breach(

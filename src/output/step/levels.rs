@@ -8,14 +8,11 @@
 
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
-use super::crossing::{encloses, first_crossing};
 use super::error::BodyError;
-use super::freeform::Freeform;
-use super::loft::{Between, EndCut, Loft, MOST_OBLIQUE_DEGREES, Station};
-use super::piece::{Arc, Piece, SAME, Sample, signed_area};
-
-/// One closed outline: counter-clockwise outside, clockwise as a hole.
-pub(super) type Ring = Vec<Piece>;
+use super::loft::{Between, EndCut, Loft, MOST_OBLIQUE_DEGREES};
+use super::piece::{Arc, Piece, SAME, Sample};
+use super::sections::{Ring, common_rings, heights};
+use super::side::{Side, flat_side, is_between};
 
 /// The plane z = height + slope·(x, y).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,17 +32,6 @@ pub(super) struct Levels {
     pub(super) planes: Vec<Level>,
     pub(super) smooth: bool,
     pub(super) trimmed: bool,
-}
-
-/// What surface connects two pieces of neighbouring stations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    Plane,
-    Cylinder,
-    Cone,
-    /// A straight prism over an ellipse or a freeform curve.
-    Prism,
-    Ruled,
 }
 
 impl Level {
@@ -275,141 +261,6 @@ impl Levels {
     }
 }
 
-/// What surface connects two pieces in parallel planes.
-fn flat_side(a: &Piece, b: &Piece) -> Side {
-    match (a, b) {
-        (Piece::Line { from: a0, to: a1 }, Piece::Line { from: b0, to: b1 }) => {
-            let (a, b) = (a1 - a0, b1 - b0);
-            let parallel = a.perp(&b).abs() <= SAME * a.norm() * b.norm() && a.dot(&b) > 0.0;
-            if parallel { Side::Plane } else { Side::Ruled }
-        }
-        (Piece::Arc(c), Piece::Arc(d))
-            if is_between(from_ref(a), from_ref(b), from_ref(a), 0.0) =>
-        {
-            if c.is_circular() && d.is_circular() { Side::Cylinder } else { Side::Prism }
-        }
-        (Piece::Arc(a), Piece::Arc(b)) => {
-            let size = a.p.norm() + b.p.norm();
-            let coaxial = (a.centre - b.centre).norm() <= SAME * size;
-            let aligned = a.p.perp(&b.p).abs() <= SAME * size * size && a.p.dot(&b.p) > 0.0;
-            let round = a.is_circular() && b.is_circular();
-            if coaxial && aligned && round { Side::Cone } else { Side::Ruled }
-        }
-        _ if is_between(from_ref(a), from_ref(b), from_ref(a), 0.0) => Side::Prism,
-        _ => Side::Ruled,
-    }
-}
-
-fn from_ref(piece: &Piece) -> &[Piece] {
-    std::slice::from_ref(piece)
-}
-
-/// Whether `middle` is `from + t (to − from)`, number by number.
-fn is_between(from: &[Piece], middle: &[Piece], to: &[Piece], t: f64) -> bool {
-    let all = |ring: &[Piece]| ring.iter().flat_map(Piece::numbers).collect::<Vec<f64>>();
-    let (from, middle, to) = (all(from), all(middle), all(to));
-    let size = from.iter().chain(&to).fold(0.0, |m: f64, x| m.max(x.abs()));
-    let mut triples = from.iter().zip(&middle).zip(&to);
-    triples.all(|((a, m), b)| (a + (b - a) * t - m).abs() <= SAME * size)
-}
-
-/// Checked heights of the stations.
-fn heights(stations: &[Station]) -> Result<Vec<f64>, BodyError> {
-    if stations.len() < 2 {
-        return Err(BodyError::TooFewStations { count: stations.len() });
-    }
-    let heights: Vec<f64> = stations.iter().map(|s| s.z).collect();
-    if heights.iter().any(|z| !z.is_finite()) {
-        return Err(BodyError::NotFinite { what: "the height of a station" });
-    }
-    match heights.windows(2).position(|w| w[1] - w[0] < super::piece::SHORTEST) {
-        Some(k) => Err(BodyError::NotAscending { station: k + 1 }),
-        None => Ok(heights),
-    }
-}
-
-/// `rings[r][k]` for all stations: alike piece by piece, holes clear.
-fn common_rings(stations: &[Station]) -> Result<Vec<Vec<Ring>>, BodyError> {
-    let mut by_station: Vec<Vec<Ring>> = Vec::with_capacity(stations.len());
-    for (k, station) in stations.iter().enumerate() {
-        let same = k > 0 && same_section(station, &stations[k - 1]);
-        let rings = if same { by_station[k - 1].clone() } else { clear_rings(k, station)? };
-        if k > 0 && rings.len() != by_station[0].len() {
-            return Err(BodyError::UnlikeOutlines { station: k });
-        }
-        by_station.push(rings);
-    }
-    (0..by_station[0].len())
-        .map(|r| {
-            let mut ring: Vec<Ring> =
-                by_station.iter_mut().map(|s| std::mem::take(&mut s[r])).collect();
-            share_breaks(&mut ring);
-            let alike = |k: &usize| {
-                let pairs = || ring[0].iter().zip(&ring[*k]);
-                ring[0].len() == ring[*k].len() && pairs().all(|(a, b)| a.is_like(b))
-            };
-            match (1..ring.len()).find(|k| !alike(k)) {
-                Some(station) => Err(BodyError::UnlikeOutlines { station }),
-                None => Ok(ring),
-            }
-        })
-        .collect()
-}
-
-fn same_section(a: &Station, b: &Station) -> bool {
-    a.outer == b.outer && a.holes == b.holes
-}
-
-/// The rings of a station, with its holes inside and apart from each other.
-fn clear_rings(station: usize, section: &Station) -> Result<Vec<Ring>, BodyError> {
-    let rings = section.rings()?;
-    for (hole, ring) in rings.iter().enumerate().skip(1) {
-        let fault = Err(BodyError::HoleOutside { station, hole: hole - 1 });
-        if let ([Piece::Arc(outer)], [Piece::Arc(inner)]) = (&rings[0][..], &ring[..])
-            && outer.is_circular()
-            && inner.is_circular()
-            && rings.len() == 2
-        {
-            let reach = (inner.centre - outer.centre).norm() + inner.p.norm();
-            return if reach < outer.p.norm() { Ok(rings) } else { fault };
-        }
-        let inside = encloses(&rings[0], &ring[0].start());
-        let apart = (1..rings.len())
-            .filter(|&other| other != hole)
-            .all(|other| !encloses(&rings[other], &ring[0].start()));
-        if !inside || !apart {
-            return fault;
-        }
-    }
-    if rings.len() > 1 {
-        let all: Vec<&[Piece]> = rings.iter().map(Vec::as_slice).collect();
-        if let Some([_, (ring, _)]) = first_crossing(&all) {
-            return Err(BodyError::HoleOutside { station, hole: ring.saturating_sub(1) });
-        }
-    }
-    Ok(rings)
-}
-
-/// Refines freeform outlines to common breaks.
-fn share_breaks(ring: &mut [Ring]) {
-    let curves: Vec<&Freeform> = ring
-        .iter()
-        .filter_map(|pieces| match &pieces[..] {
-            [Piece::Spline(curve)] => Some(curve),
-            _ => None,
-        })
-        .collect();
-    if curves.len() < ring.len() || curves.windows(2).all(|w| w[0].breaks() == w[1].breaks()) {
-        return;
-    }
-    let union = curves[1..].iter().fold(curves[0].clone(), |union, curve| union.refined(curve));
-    for pieces in ring {
-        if let [Piece::Spline(curve)] = &mut pieces[..] {
-            *curve = curve.on_breaks_of(&union);
-        }
-    }
-}
-
 /// Slope of a cut: z rises by slope·(x, y) away from the axis.
 fn slope(cut: &EndCut, end: &'static str) -> Result<Vector2<f64>, BodyError> {
     let EndCut::Plane { normal } = cut else { return Ok(Vector2::zeros()) };
@@ -433,9 +284,4 @@ fn turned(heights: &[f64], [start, end]: [Vector2<f64>; 2]) -> Vec<Level> {
         Level { height, slope: start * (1.0 - t) + end * t }
     };
     heights.iter().map(level).collect()
-}
-
-/// Area of the outside of a level seen along the axis.
-pub(super) fn outer_area(levels: &Levels, k: usize) -> f64 {
-    signed_area(&levels.rings[0][k])
 }

@@ -13,7 +13,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::error::BodyError;
 use super::gauss;
-use super::levels::{Levels, outer_area};
+use super::levels::Levels;
+use super::piece::signed_area;
 use super::spline::natural_second_derivatives;
 
 /// Simpson's rule: exact for the ruled sides, and looks at mid-span.
@@ -49,7 +50,7 @@ impl Levels {
     }
 
     fn check(&self, volume: f64, areas: &[f64]) -> Result<f64, BodyError> {
-        let largest = (0..=self.last()).map(|k| outer_area(self, k)).fold(0.0, f64::max);
+        let largest = self.rings[0].iter().map(|ring| signed_area(ring)).fold(0.0, f64::max);
         if areas.iter().any(|area| *area <= 1e-9 * largest) {
             Err(BodyError::SectionVanishes)
         } else if volume.is_finite() && volume > 0.0 {

@@ -49,8 +49,6 @@ pub(crate) enum Stop {
 #[derive(Clone, Debug)]
 pub(crate) struct Tube {
     pub(crate) fronts: Vec<Front>,
-    /// Why it ends before the first and behind the last front.
-    pub(crate) stops: [Stop; 2],
 }
 
 impl Tube {
@@ -106,16 +104,13 @@ impl<'a> March<'a> {
     /// Marches both ways from a front; claims what it passes.
     pub(crate) fn both_ways(&mut self, seed: Front) -> Tube {
         let back = self.reversed(&seed);
-        let (ahead, last) = self.one_way(seed);
-        let (mut fronts, first) = match back {
-            Some(back) => self.one_way(back),
-            None => (Vec::new(), Stop::Bends),
-        };
+        let ahead = self.one_way(seed);
+        let mut fronts = back.map(|back| self.one_way(back)).unwrap_or_default();
         fronts.reverse();
         fronts.pop();
         let mut fronts: Vec<Front> = fronts.iter().filter_map(|f| self.reversed(f)).collect();
         fronts.extend(ahead);
-        Tube { fronts, stops: [first, last] }
+        Tube { fronts }
     }
 
     /// Whether a whole step can be made from a front, ahead or back.
@@ -136,7 +131,7 @@ impl<'a> March<'a> {
     }
 
     /// Marches from `seed` along its normal; all fronts, the seed first.
-    fn one_way(&mut self, seed: Front) -> (Vec<Front>, Stop) {
+    fn one_way(&mut self, seed: Front) -> Vec<Front> {
         let mut fronts = vec![seed];
         let mut part = 1.0;
         // Every step advances by at least a sixteenth of a radius and no band is passed twice.
@@ -148,9 +143,9 @@ impl<'a> March<'a> {
                     fronts.push(front);
                     part = f64::min(1.0, 2.0 * part);
                 }
-                Err(Stop::Passed) => return (fronts, Stop::Passed),
+                Err(Stop::Passed) => return fronts,
                 Err(_) if part > SHORTEST_STEP => part *= 0.5,
-                Err(stop) => return (fronts, stop),
+                Err(_) => return fronts,
             }
         }
     }

@@ -18,8 +18,9 @@ use truck_modeling::{BSplineCurve, BSplineSurface, KnotVec, NurbsCurve, NurbsSur
 use super::curve::{lifted, lifted_nurbs};
 use super::{Axes, Conic, Curve, Edge, Face, Skin, Solid, Surface, Vertex, Wire, face, solid_of};
 use crate::output::step::error::BodyError;
-use crate::output::step::levels::{Levels, Side};
+use crate::output::step::levels::Levels;
 use crate::output::step::piece::{Arc, Piece, SAME};
+use crate::output::step::side::Side;
 use crate::output::step::spline::clamped_ordinates;
 
 /// One ring at one station: piece `j` runs along edge `j` from corner `j`.

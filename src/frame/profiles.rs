@@ -1,0 +1,230 @@
+//! Gives every beam its profile (thesis §5.2.3: a standard beam for each branch that matches the
+//! mean of its sections).
+//!
+//! 1. Beams whose sections and lengths agree are one group: a symmetric part gets equal beams.
+//! 2. Each group is matched to a profile of the wanted kind.
+//! 3. With `max_profiles`, the profiles are reduced over the whole frame at least cost.
+//! 4. Tapered lofts get the same family at stations along the beam.
+
+use nalgebra::Point2;
+
+use super::beam_section::{BeamSection, Moments};
+use super::params::ProfileParams;
+use super::shape::{BeamShape, Loft, ShapeStation};
+use super::{Beam, Frame};
+use crate::finding::{Finding, FindingKind};
+use crate::section::Profile;
+use crate::section::catalogue::Catalogue;
+use crate::section::freeform::average_outline;
+use crate::section::matching::{
+    MatchError, MatchMode, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
+    match_profile, reduce_profiles,
+};
+use crate::section::properties::{Contours, SectionProperties};
+
+/// Sections and lengths that agree within this part are meant to be equal. The two halves of a
+/// mirrored voxel part agree within half of it, struts that were designed to differ do not.
+const EQUAL: f64 = 0.02;
+
+/// Points of an averaged contour: a round one is followed within a thousandth of its radius.
+const OUTLINE_POINTS: usize = 48;
+
+/// Worst error of I₁ or I₂ that goes without a finding.
+const POOR_MATCH: f64 = 0.25;
+
+/// Matches every beam of a frame to a profile.
+///
+/// # Errors
+/// A family that is not in the catalogue, or no profile that is strong enough.
+pub fn match_profiles(
+    frame: &mut Frame,
+    params: &ProfileParams,
+    catalogue: &Catalogue,
+) -> Result<Vec<Finding>, MatchError> {
+    let targets: Vec<Option<MatchTarget>> =
+        frame.beams.iter().map(|b| target(&b.section)).collect();
+    let measured: Vec<usize> = (0..targets.len()).filter(|&i| targets[i].is_some()).collect();
+    let pairs: Vec<(MatchTarget, f64)> = measured
+        .iter()
+        .filter_map(|&i| targets[i].clone().map(|t| (t, frame.beams[i].length)))
+        .collect();
+    let groups = equalize(&pairs, EQUAL);
+    let mut matched: Vec<Matched> = groups
+        .targets
+        .iter()
+        .map(|t| match_profile(t, &params.choice, params.mode, catalogue))
+        .collect::<Result<_, _>>()?;
+    if let Some(max) = params.max_profiles {
+        reduce(&mut matched, &groups.targets, &groups.lengths, max, params.mode)?;
+    }
+    for (k, &i) in measured.iter().enumerate() {
+        let group = groups.group_of[k];
+        let beam = &mut frame.beams[i];
+        if let Some(own) = &targets[i] {
+            beam.shape = shape(beam, own, &matched[group], params, catalogue)?;
+        }
+        if (beam.length - groups.lengths[group]).abs() < SAME_LENGTH * beam.section.mean.radius() {
+            beam.cut_length = groups.lengths[group];
+        }
+    }
+    for i in (0..targets.len()).filter(|&i| targets[i].is_none()) {
+        frame.beams[i].shape = unmeasured(frame, i);
+    }
+    Ok(poor_matches(frame))
+}
+
+/// Lengths of equal beams are made equal when they differ by less than this part of the radius:
+/// what a saw can do.
+const SAME_LENGTH: f64 = 0.1;
+
+/// What a beam is matched to; `None` without a measured section.
+fn target(section: &BeamSection) -> Option<MatchTarget> {
+    let contour = mean_contour(section)?;
+    let properties = SectionProperties::of_contours(&Contours::solid(contour.clone())).ok()?;
+    let (i_1, i_2, principal_angle) = section.mean.principal();
+    // J belongs to the averaged contour; as the area is the mean of the areas, so is J scaled.
+    let scale = section.mean.area / properties.area;
+    Some(MatchTarget {
+        area: section.mean.area,
+        i_1,
+        i_2,
+        j: properties.j * scale * scale,
+        principal_angle,
+        contours: Some(Contours::solid(contour)),
+    })
+}
+
+/// The averaged contour of the sections that belong to the beam alone.
+fn mean_contour(section: &BeamSection) -> Option<Vec<Point2<f64>>> {
+    let mut clean: Vec<Vec<Point2<f64>>> =
+        section.stations.iter().filter(|s| s.weight >= 0.5).map(|s| s.contour.clone()).collect();
+    if clean.is_empty() {
+        clean = section.stations.iter().map(|s| s.contour.clone()).collect();
+    }
+    let outline = average_outline(&clean, OUTLINE_POINTS).ok()?;
+    Some(outline.points().to_vec())
+}
+
+fn reduce(
+    matched: &mut [Matched],
+    targets: &[MatchTarget],
+    lengths: &[f64],
+    max: usize,
+    mode: MatchMode,
+) -> Result<(), MatchError> {
+    let requirements: Vec<Requirement> = targets
+        .iter()
+        .zip(lengths)
+        .map(|(target, &length)| Requirement { target: target.clone(), length })
+        .collect();
+    let pool: Vec<Profile> = matched.iter().map(|m| m.profile.clone()).collect();
+    let reduction = reduce_profiles(&requirements, &pool, max, mode)?;
+    for (i, m) in matched.iter_mut().enumerate() {
+        let profile = reduction.profiles[reduction.profile_of[i]].clone();
+        *m = Matched::of(profile, &targets[i])?;
+    }
+    Ok(())
+}
+
+/// The shape of one beam of a group.
+fn shape(
+    beam: &Beam,
+    own: &MatchTarget,
+    group: &Matched,
+    params: &ProfileParams,
+    catalogue: &Catalogue,
+) -> Result<BeamShape, MatchError> {
+    let matched = Matched::of(group.profile.clone(), own)?;
+    let mut shape = BeamShape::constant(matched);
+    let places = match params.loft {
+        Loft::Constant => return Ok(shape),
+        _ if shape.profile.designation.is_some() => return Ok(shape),
+        Loft::Taper => vec![(0.0, beam.section.ends[0]), (1.0, beam.section.ends[1])],
+        Loft::Multi => along(&beam.section),
+    };
+    let choice: ProfileChoice = shape.profile.family().parse().unwrap_or_default();
+    shape.stations = places
+        .into_iter()
+        .map(|(at, moments)| {
+            let there = scaled_target(own, &moments);
+            let sized = match_profile(&there, &choice, params.mode, catalogue)?;
+            Ok(ShapeStation { at, region: sized.profile.region() })
+        })
+        .collect::<Result<_, MatchError>>()?;
+    Ok(shape)
+}
+
+/// The target with the area and moments of another place and the contour grown alike.
+fn scaled_target(own: &MatchTarget, there: &Moments) -> MatchTarget {
+    let grown = there.area / own.area;
+    let (i_1, i_2, _) = there.principal();
+    let side = grown.sqrt();
+    let contours =
+        own.contours.as_ref().map(|c| Contours::solid(c.outer.iter().map(|p| p * side).collect()));
+    MatchTarget {
+        area: there.area,
+        i_1,
+        i_2,
+        j: own.j * grown * grown,
+        principal_angle: own.principal_angle,
+        contours,
+    }
+}
+
+/// End values and up to three means between them.
+fn along(section: &BeamSection) -> Vec<(f64, Moments)> {
+    let inner = section.stations.iter().filter(|s| s.weight >= 0.5);
+    let inner: Vec<(f64, Moments)> = inner.map(|s| (s.at, s.moments)).collect();
+    let mut places = vec![(0.0, section.ends[0])];
+    for k in 1..4 {
+        let middle = f64::from(k) / 4.0;
+        let near: Vec<&(f64, Moments)> =
+            inner.iter().filter(|(at, _)| (at - middle).abs() <= 0.125).collect();
+        if near.is_empty() {
+            continue;
+        }
+        let share = 1.0 / near.len() as f64;
+        let at = near.iter().map(|n| n.0 * share).sum();
+        places.push((at, Moments::mean(near.iter().map(|n| (share, n.1)))));
+    }
+    places.push((1.0, section.ends[1]));
+    places
+}
+
+/// A round bar for a beam without sections of its own (a stub in a joint): as thick as the beams
+/// it joins.
+fn unmeasured(frame: &Frame, index: usize) -> BeamShape {
+    let ends = frame.beams[index].ends;
+    let areas: Vec<f64> = frame
+        .beams
+        .iter()
+        .filter(|b| b.ends.iter().any(|e| ends.contains(e)) && b.section.mean.area > 0.0)
+        .map(|b| b.section.mean.area)
+        .collect();
+    let own = frame.beams[index].assumed_area;
+    let area = if areas.is_empty() { own } else { areas.iter().sum::<f64>() / areas.len() as f64 };
+    BeamShape::unmatched(area)
+}
+
+fn poor_matches(frame: &Frame) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for (i, beam) in frame.beams.iter().enumerate() {
+        let Some(errors) = beam.shape.errors else { continue };
+        let worst = errors.i_1.abs().max(errors.i_2.abs());
+        if worst > POOR_MATCH {
+            let [a, b] = frame.axis(beam);
+            findings.push(Finding::note(
+                FindingKind::PoorMatch,
+                Some(nalgebra::center(&a, &b)),
+                format!(
+                    "beam {}: {} is off by {:+.0} % in I1 and {:+.0} % in I2",
+                    i + 1,
+                    beam.shape.name(),
+                    100.0 * errors.i_1,
+                    100.0 * errors.i_2
+                ),
+            ));
+        }
+    }
+    findings
+}

@@ -1,0 +1,215 @@
+//! A loft as triangles: rings of corners, sides between them, caps over the ends.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Point2, Point3, Vector2, Vector3};
+use spade::{ConstrainedDelaunayTriangulation, Triangulation};
+
+use super::{ROUND, Triangles};
+use crate::output::step::{EndCut, Loft, Outline, Path, Segment};
+
+/// A cut may shorten a beam by this part of the way to the next station; beyond, the end is turned
+/// instead.
+const SHORTEN: f64 = 0.9;
+
+/// The triangles of a loft; `None` if its stations do not fit each other or an outline is empty.
+/// Such a loft is no solid, and the STEP writer refuses it with words.
+pub(super) fn triangulate(loft: &Loft) -> Option<Triangles> {
+    let stations: Vec<Vec<Ring>> = loft
+        .stations
+        .iter()
+        .map(|s| {
+            let holes = s.holes.iter().map(|h| reversed(ring(h)));
+            std::iter::once(ring(&s.outer)).chain(holes).collect()
+        })
+        .collect();
+    let [first, .., last] = stations.as_slice() else { return None };
+    let counts = |rings: &[Ring]| rings.iter().map(Vec::len).collect::<Vec<_>>();
+    let alike = stations.iter().all(|rings| counts(rings) == counts(first));
+    if !alike || first.iter().any(|r| r.len() < 3) {
+        return None;
+    }
+    let mut levels: Vec<Vec<Point3<f64>>> = loft
+        .stations
+        .iter()
+        .zip(&stations)
+        .map(|(s, rings)| rings.iter().flatten().map(|p| Point3::new(p.x, p.y, s.z)).collect())
+        .collect();
+    let (start, end) = (cap(first)?, cap(last)?);
+    cut_ends(loft, &mut levels);
+    let count = levels[0].len() as u32;
+    let top = (levels.len() as u32 - 1) * count;
+    let mut triangles: Vec<[u32; 3]> = start.iter().map(|&[a, b, c]| [a, c, b]).collect();
+    let mut offset = 0;
+    for ring in first {
+        sides(offset, ring.len() as u32, count, levels.len() as u32, &mut triangles);
+        offset += ring.len() as u32;
+    }
+    triangles.extend(end.iter().map(|t| t.map(|i| i + top)));
+    Some((levels.concat(), triangles))
+}
+
+/// Corners on one outline.
+type Ring = Vec<Point2<f64>>;
+
+/// Two triangles between neighbouring corners of one ring on two neighbouring levels.
+fn sides(offset: u32, corners: u32, per_level: u32, levels: u32, triangles: &mut Vec<[u32; 3]>) {
+    for level in 0..levels - 1 {
+        let at = |level: u32, i: u32| level * per_level + offset + i % corners;
+        for i in 0..corners {
+            let [a, b] = [at(level, i), at(level, i + 1)];
+            let [c, d] = [at(level + 1, i + 1), at(level + 1, i)];
+            triangles.push([a, b, c]);
+            triangles.push([a, c, d]);
+        }
+    }
+}
+
+/// Corners on an outline, counter-clockwise.
+fn ring(outline: &Outline) -> Ring {
+    let corners: Ring = match outline {
+        Outline::Circle { centre, radius } => round(*centre, [*radius; 2], 0.0),
+        Outline::Ellipse { centre, half_axes, turn } => round(*centre, *half_axes, *turn),
+        Outline::Path(path) => along(path),
+        Outline::Freeform(curve) => {
+            let count = (2 * (curve.breaks().len() - 1)).max(ROUND);
+            (0..count).map(|i| curve.point(i as f64 / count as f64)).collect()
+        }
+    };
+    if doubled_area(&corners) < 0.0 { reversed(corners) } else { corners }
+}
+
+fn round(centre: Point2<f64>, half_axes: [f64; 2], turn: f64) -> Ring {
+    let (sin, cos) = turn.sin_cos();
+    let [p, q] = [Vector2::new(cos, sin) * half_axes[0], Vector2::new(-sin, cos) * half_axes[1]];
+    let corner = |i: usize| {
+        let (sin, cos) = (TAU * i as f64 / ROUND as f64).sin_cos();
+        centre + p * cos + q * sin
+    };
+    (0..ROUND).map(corner).collect()
+}
+
+/// Corners along lines and arcs; an arc gets as many as its part of a circle.
+fn along(path: &Path) -> Ring {
+    let mut corners = Vec::new();
+    let mut from = path.start;
+    for segment in &path.segments {
+        match *segment {
+            Segment::Line { to } => {
+                corners.push(from);
+                from = to;
+            }
+            Segment::Arc { to, sweep } => {
+                let chord = to - from;
+                let off = Vector2::new(-chord.y, chord.x) * (0.5 / (0.5 * sweep).tan());
+                let centre = from + chord * 0.5 + off;
+                let steps = ((sweep.abs() / TAU * ROUND as f64).ceil() as usize).max(1);
+                corners.extend((0..steps).map(|i| {
+                    let angle = sweep * i as f64 / steps as f64;
+                    centre + nalgebra::Rotation2::new(angle) * (from - centre)
+                }));
+                from = to;
+            }
+        }
+    }
+    if from != path.start {
+        corners.push(from);
+    }
+    corners
+}
+
+fn doubled_area(corners: &[Point2<f64>]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(p, q)| p.coords.perp(&q.coords)).sum()
+}
+
+/// The ring run backwards from the same start.
+fn reversed(mut corners: Ring) -> Ring {
+    if let Some(rest) = corners.get_mut(1..) {
+        rest.reverse();
+    }
+    corners
+}
+
+/// Triangles over an outline and its holes, counter-clockwise, by the numbers of the corners.
+fn cap(rings: &[Ring]) -> Option<Vec<[u32; 3]>> {
+    type Cdt = ConstrainedDelaunayTriangulation<Corner>;
+    let mut cdt = Cdt::new();
+    let mut number = 0;
+    for ring in rings {
+        let mut handles = Vec::with_capacity(ring.len());
+        for at in ring {
+            handles.push(cdt.insert(Corner { at: *at, number }).ok()?);
+            number += 1;
+        }
+        for (i, &from) in handles.iter().enumerate() {
+            let to = handles[(i + 1) % handles.len()];
+            if from == to || !cdt.can_add_constraint(from, to) {
+                return None;
+            }
+            cdt.add_constraint(from, to);
+        }
+    }
+    let inside = |t: &[Corner; 3]| {
+        let middle = Point2::from(t.iter().map(|c| c.at.coords).sum::<Vector2<f64>>() / 3.0);
+        !rings.iter().map(|r| crossings(r, &middle)).sum::<usize>().is_multiple_of(2)
+    };
+    let faces = cdt.inner_faces().map(|f| f.vertices().map(|v| *v.data()));
+    let triangles: Vec<_> = faces.filter(inside).map(|t| t.map(|c| c.number)).collect();
+    (cdt.num_vertices() == number as usize).then_some(triangles)
+}
+
+/// A corner that remembers which one it is.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    at: Point2<f64>,
+    number: u32,
+}
+
+impl spade::HasPosition for Corner {
+    type Scalar = f64;
+    fn position(&self) -> spade::Point2<f64> {
+        spade::Point2::new(self.at.x, self.at.y)
+    }
+}
+
+/// How often a ray from a point along x crosses a ring.
+fn crossings(ring: &[Point2<f64>], p: &Point2<f64>) -> usize {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter()
+        .zip(next)
+        .filter(|(a, b)| (a.y > p.y) != (b.y > p.y))
+        .filter(|(a, b)| a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x)
+        .count()
+}
+
+/// Moves the corners of the end levels along their rulings into the cutting planes.
+fn cut_ends(loft: &Loft, levels: &mut [Vec<Point3<f64>>]) {
+    let last = levels.len() - 1;
+    for (cut, end, beside) in [(loft.start, 0, 1), (loft.end, last, last - 1)] {
+        let EndCut::Plane { normal } = cut else { continue };
+        let through = Point3::new(0.0, 0.0, loft.stations[end].z);
+        let moved: Vec<_> = levels[end]
+            .iter()
+            .zip(&levels[beside])
+            .map(|(p, q)| into_plane(*p, q - p, &through, &normal))
+            .collect();
+        levels[end] = moved;
+    }
+}
+
+fn into_plane(
+    p: Point3<f64>,
+    ruling: Vector3<f64>,
+    through: &Point3<f64>,
+    normal: &Vector3<f64>,
+) -> Point3<f64> {
+    let height = (through - p).dot(normal);
+    let along = height / ruling.dot(normal);
+    if along.is_finite() && along < SHORTEN {
+        return p + ruling * along;
+    }
+    // Straight along the axis: the outline seen along it stays what it is.
+    let up = height / normal.z;
+    if up.is_finite() { p + Vector3::z() * up } else { p }
+}
