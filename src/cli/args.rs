@@ -1,6 +1,7 @@
 //! What can be typed; one flag for one parameter field.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use beamwright::frame::{FrameParams, Loft, ProfileParams};
 use beamwright::mesh::LabelParams;
@@ -138,19 +139,31 @@ pub(crate) struct InputArgs {
     pub(crate) non_design: Vec<PathBuf>,
 
     /// Box in mm whose faces are non-design; may be repeated
-    #[arg(
-        long,
-        value_name = "X0,Y0,Z0,X1,Y1,Z1",
-        value_delimiter = ',',
-        num_args = 6,
-        allow_hyphen_values = true,
-        action = clap::ArgAction::Append
-    )]
-    pub(crate) non_design_box: Vec<f64>,
+    #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1", allow_hyphen_values = true)]
+    pub(crate) non_design_box: Vec<Corners>,
 
     /// Name of a group, material or solid that is non-design, with * for anything
     #[arg(long, value_name = "PATTERN", default_values_t = DEFAULT_NAMES.map(String::from))]
     pub(crate) non_design_name: Vec<String>,
+}
+
+/// Two opposite corners of a box, mm.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corners([f64; 6]);
+
+impl FromStr for Corners {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Vec<f64> = text
+            .split(',')
+            .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+            .collect::<Option<_>>()
+            .ok_or("six numbers in mm are wanted, with commas between")?;
+        let count = numbers.len();
+        let numbers = numbers.try_into();
+        numbers.map(Self).map_err(|_| format!("six numbers are wanted, but there are {count}"))
+    }
 }
 
 #[derive(Args, Debug)]
@@ -240,11 +253,7 @@ impl InputArgs {
     fn labels(&self) -> LabelParams {
         LabelParams {
             second_meshes: Vec::new(),
-            boxes: self
-                .non_design_box
-                .chunks_exact(6)
-                .map(|c| [c[0], c[1], c[2], c[3], c[4], c[5]])
-                .collect(),
+            boxes: self.non_design_box.iter().map(|corners| corners.0).collect(),
             names: self.non_design_name.clone(),
         }
     }

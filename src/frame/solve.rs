@@ -27,7 +27,7 @@ const ROUNDS: usize = 3;
 
 /// Pull of a node to its first place, against the mean pull of a beam. It decides only along
 /// directions in which the sections say nothing.
-const FAINT: f64 = 1e-2;
+const FAINT: f64 = 1e-4;
 
 /// Stiffness of the planes of interface sections, against the mean pull of a beam.
 const PLANE: f64 = 1e3;

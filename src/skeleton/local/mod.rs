@@ -2,12 +2,12 @@
 //!
 //! | step | what | module |
 //! |---|---|---|
-//! | 1 | every place of the surface is asked whether it lies on a rod | [`seed`] |
-//! | 2 | from there a front marches both ways to the ends of the rod and claims the surface | [`march`], [`band`], [`claim`] |
-//! | 3 | the surface is cut along one front of each rod; pieces with a handle are searched again | [`patch`], [`search`] |
-//! | 4 | pieces become hubs, rods become runs; false joints go | [`draft`], [`simplify`] |
-//! | 5 | joints are placed where the straight axes of their runs meet (§5.2.6) | [`axis`], [`junction`] |
-//! | 6 | points are spread along the runs and moved to the centroids of their sections (§5.2.5) | [`sample`] |
+//! | 1 | every place of the surface is asked whether it lies on a rod | `seed` |
+//! | 2 | from there a front marches both ways to the ends of the rod and claims the surface | `march`, `band`, `claim` |
+//! | 3 | the surface is cut along one front of each rod; pieces with a handle are searched again | `patch`, `search` |
+//! | 4 | pieces become hubs, rods become runs; false joints go | `draft`, `simplify` |
+//! | 5 | joints are placed where the straight axes of their runs meet (§5.2.6) | `axis`, `junction` |
+//! | 6 | points are spread along the runs and moved to the centroids of their sections (§5.2.5) | `sample` |
 //!
 //! Step 3 is what makes the topology sound: every piece, closed over its cuts, is a sphere, so the
 //! graph of pieces and rods has the tunnels of the object, neither more nor fewer.
