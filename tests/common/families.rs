@@ -5,7 +5,12 @@ use std::f64::consts::TAU;
 use super::TestMesh;
 
 /// A surface swept round a closed or open chain of centres; open chains are capped.
-fn tube(centres: &[[f64; 3]], ring: impl Fn(usize, f64) -> [f64; 3], around: usize, closed: bool) -> TestMesh {
+fn tube(
+    centres: &[[f64; 3]],
+    ring: impl Fn(usize, f64) -> [f64; 3],
+    around: usize,
+    closed: bool,
+) -> TestMesh {
     let mut mesh = TestMesh::default();
     let (n, m) = (centres.len() as u32, around as u32);
     for (i, c) in centres.iter().enumerate() {
@@ -84,9 +89,8 @@ pub fn quarter_bend(ring: f64, radius: f64) -> TestMesh {
 
 /// A cube from −1 to 1.
 pub fn cube() -> TestMesh {
-    let positions = (0..8)
-        .map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|b: i32| f64::from(2 * b - 1)))
-        .collect();
+    let positions =
+        (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|b: i32| f64::from(2 * b - 1))).collect();
     let quads =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles: Vec<[u32; 3]> =

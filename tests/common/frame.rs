@@ -42,9 +42,8 @@ impl TrueFrame {
     }
 
     fn distance(&self, p: [f64; 3]) -> f64 {
-        let struts = self.struts.iter().map(|&([a, b], r)| {
-            round_cone(p, self.nodes[a], self.nodes[b], r)
-        });
+        let struts =
+            self.struts.iter().map(|&([a, b], r)| round_cone(p, self.nodes[a], self.nodes[b], r));
         struts.fold(f64::INFINITY, f64::min).min(self.pad_distance(p))
     }
 

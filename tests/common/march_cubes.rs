@@ -35,9 +35,8 @@ pub fn surface_of(
     for z in 0..n[2] - 1 {
         for y in 0..n[1] - 1 {
             for x in 0..n[0] - 1 {
-                let corners: [[usize; 3]; 8] = std::array::from_fn(|c| {
-                    [x + (c & 1), y + (c >> 1 & 1), z + (c >> 2 & 1)]
-                });
+                let corners: [[usize; 3]; 8] =
+                    std::array::from_fn(|c| [x + (c & 1), y + (c >> 1 & 1), z + (c >> 2 & 1)]);
                 let ids = corners.map(index);
                 let inside = ids.map(|i| values[i] < 0.0);
                 if inside.iter().all(|&i| i) || inside.iter().all(|&i| !i) {
@@ -70,7 +69,11 @@ pub fn surface_of(
                     let inner = at(corners[within[0]]);
                     for t in found {
                         let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
-                        mesh.triangles.push(if looks_at(a, b, c, inner) { [t[0], t[2], t[1]] } else { t });
+                        mesh.triangles.push(if looks_at(a, b, c, inner) {
+                            [t[0], t[2], t[1]]
+                        } else {
+                            t
+                        });
                     }
                 }
             }

@@ -22,8 +22,7 @@ impl TestMesh {
     pub fn raw(&self) -> RawMesh {
         let mut faces = Polygons::default();
         self.triangles.iter().for_each(|t| faces.push(t.iter().copied()));
-        let mut raw =
-            RawMesh { positions: self.positions.clone(), faces, ..RawMesh::default() };
+        let mut raw = RawMesh { positions: self.positions.clone(), faces, ..RawMesh::default() };
         if self.non_design.contains(&true) {
             raw.carriers.face_property = self.non_design.iter().map(|&n| i64::from(n)).collect();
         }

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""How time and memory grow with the number of triangles.
+
+    cargo build --release
+    python3 benches/growth.py                     # samples/single_bar.obj, split 0, 1, 2, … times
+    python3 benches/growth.py samples/cantilever.obj --to 1000000
+
+Every triangle is split in four, again and again, so that the shape and its skeleton stay the same
+while the mesh grows.  The mesh goes to the program as a labelled binary PLY.  One row a mesh:
+processor time and peak memory of the whole process, per triangle, and the exponent of the growth
+from row to row (1 is linear).
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+Mesh = tuple[list[tuple[float, float, float]], list[tuple[int, int, int]], list[int]]
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def read_obj(path: Path) -> Mesh:
+    """Reads points, triangles and the group of each: 1 for `non_design`."""
+    points, triangles, labels, label = [], [], [], 0
+    for line in path.read_text().splitlines():
+        words = line.split()
+        if not words:
+            continue
+        if words[0] == "v":
+            points.append((float(words[1]), float(words[2]), float(words[3])))
+        elif words[0] in ("g", "o"):
+            label = int("non_design" in words[1:])
+        elif words[0] == "f":
+            a, b, c = (int(w.split("/")[0]) - 1 for w in words[1:4])
+            triangles.append((a, b, c))
+            labels.append(label)
+    return points, triangles, labels
+
+
+def split(mesh: Mesh) -> Mesh:
+    """Splits every triangle in four at the middles of its sides."""
+    points, triangles, labels = list(mesh[0]), [], []
+    middles: dict[tuple[int, int], int] = {}
+
+    def middle(a: int, b: int) -> int:
+        key = (min(a, b), max(a, b))
+        if key not in middles:
+            middles[key] = len(points)
+            p, q = points[a], points[b]
+            points.append(((p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2))
+        return middles[key]
+
+    for (a, b, c), label in zip(mesh[1], mesh[2]):
+        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+        triangles += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        labels += [label] * 4
+    return points, triangles, labels
+
+
+def write_ply(path: Path, mesh: Mesh) -> None:
+    """Writes a binary PLY with the face property `non_design`."""
+    points, triangles, labels = mesh
+    with path.open("wb") as out:
+        out.write(
+            (
+                "ply\nformat binary_little_endian 1.0\n"
+                f"element vertex {len(points)}\n"
+                "property double x\nproperty double y\nproperty double z\n"
+                f"element face {len(triangles)}\n"
+                "property list uchar int vertex_indices\nproperty uchar non_design\nend_header\n"
+            ).encode()
+        )
+        for point in points:
+            out.write(struct.pack("<3d", *point))
+        for triangle, label in zip(triangles, labels):
+            out.write(struct.pack("<B3iB", 3, *triangle, label))
+
+
+def measure(command: list[str]) -> tuple[float, float]:
+    """Processor seconds and peak megabytes of one run, in a process of its own."""
+    run = (
+        "import resource, subprocess, sys\n"
+        "code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode\n"
+        "used = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
+        "print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)\n"
+        "sys.exit(code)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", run, *command], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
+    seconds, megabytes = done.stdout.split()
+    return float(seconds), float(megabytes)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("mesh", type=Path, nargs="?", default=ROOT / "samples/single_bar.obj")
+    parser.add_argument("--to", type=int, default=1_000_000, help="about how many triangles at most")
+    parser.add_argument(
+        "--program", type=Path, default=ROOT / "target/release/beamwright", help="the binary"
+    )
+    wanted = parser.parse_args()
+    mesh = read_obj(wanted.mesh)
+    print(f"{'triangles':>10} {'cpu s':>8} {'us/tri':>8} {'peak MB':>8} {'bytes/tri':>10} {'growth':>7}")
+    before = None
+    with tempfile.TemporaryDirectory() as folder:
+        while len(mesh[1]) <= 1.5 * wanted.to:
+            path, count = Path(folder, "mesh.ply"), len(mesh[1])
+            write_ply(path, mesh)
+            out = os.path.join(folder, "skeleton.json")
+            seconds, megabytes = min(
+                measure([str(wanted.program), "-q", "skeleton", str(path), "-o", out])
+                for _ in range(3)
+            )
+            growth = ""
+            if before:
+                growth = f"{math.log(seconds / before[1]) / math.log(count / before[0]):.2f}"
+            print(
+                f"{count:>10,} {seconds:>8.3f} {1e6 * seconds / count:>8.3f} {megabytes:>8.0f} "
+                f"{megabytes * 1048576 / count:>10.0f} {growth:>7}"
+            )
+            before = (count, seconds)
+            mesh = split(mesh)
+
+
+if __name__ == "__main__":
+    main()
