@@ -54,8 +54,9 @@ fn project(name: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
 
     let solids = beamwright_formats::read(&beams, &Default::default())?;
     let enclosed: f64 = solids.faces.iter().map(|f| under_face(&solids, f)).sum();
-    let volume: f64 = outcome.frame.beams.iter().map(|b| b.length * b.section.mean.area).sum();
-    assert!((enclosed / volume - 1.0).abs() < 0.02, "{name}: {enclosed} {volume}");
+    let parts = document.groups.iter().flat_map(|g| &g.parts);
+    let volume = parts.map(|p| p.body.volume()).sum::<Result<f64, _>>()?;
+    assert!((enclosed / volume - 1.0).abs() < 0.005, "{name}: {enclosed} {volume}");
     Ok(())
 }
 
