@@ -12,6 +12,8 @@ use beamwright::skeleton::{Orientation, SkeletonParams};
 use beamwright_formats::{ReadOptions, Unit};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::evaluate::EvaluateArgs;
+
 /// From a topology-optimized mesh to beams one can buy, cut and weld.
 #[derive(Debug, Parser)]
 #[command(name = "beamwright", version, max_term_width = 100, propagate_version = true)]
@@ -31,6 +33,9 @@ pub(crate) enum Command {
     /// March the skeleton of a mesh and write it
     #[command(after_help = SKELETON_EXAMPLES)]
     Skeleton(SkeletonArgs),
+    /// Measure skeletons: centeredness, topology, what lies outside
+    #[command(after_help = super::evaluate::EXAMPLES)]
+    Evaluate(EvaluateArgs),
     /// Check a mesh: what was mended, labels per source, interface sections
     Inspect(InspectArgs),
 }

@@ -1,6 +1,7 @@
 //! Parses what was typed, runs it, prints the result, and ends with the right exit code.
 
 mod args;
+mod evaluate;
 mod exit;
 mod inspect;
 mod progress;
@@ -34,6 +35,7 @@ pub(crate) fn main() -> ExitCode {
     let ended = match &cli.command {
         Command::Reconstruct(args) => reconstruct::run(args, &cli.global, &mut progress),
         Command::Skeleton(args) => skeleton::run(args, &cli.global, &mut progress),
+        Command::Evaluate(args) => evaluate::run(args, &cli.global, &mut progress),
         Command::Inspect(args) => inspect::run(args, &cli.global, &mut progress),
     };
     progress.finish();

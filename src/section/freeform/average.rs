@@ -95,7 +95,7 @@ pub fn average_outline(
     let corners = evenly_spaced(&mean, mean[0], points);
     let curve =
         Freeform::through(corners).map_err(|fault| AverageError::Contour { index: 0, fault })?;
-    Ok(with_moments_of(&with_moments_of(&curve, &goal), &goal))
+    Ok(with_area_of(&with_moments_of(&with_moments_of(&curve, &goal), &goal), &goal))
 }
 
 /// The contour about the origin, counter-clockwise.
@@ -194,6 +194,14 @@ fn with_moments_of(curve: &Freeform, goal: &Moments) -> Freeform {
     let to = if has_axis { from + lesser(goal_angle - from) } else { 0.0 };
     let map = Rotation2::new(to).matrix() * stretch * Rotation2::new(-from).matrix();
     curve.mapped(|p| (map * (p - centroid)).into())
+}
+
+/// The curve scaled to the area of `goal`. Stretching changes the spline between its points a
+/// little; scaling does not.
+fn with_area_of(curve: &Freeform, goal: &Moments) -> Freeform {
+    let own = Moments::of_pieces(&Outline::Freeform(curve.clone()).pieces());
+    let scale = (goal.area / own.area).abs().sqrt();
+    curve.mapped(|p| p * scale)
 }
 
 impl Moments {
