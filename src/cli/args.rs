@@ -249,6 +249,10 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) skeleton: Option<PathBuf>,
 
+    /// Section properties at every skeletal point and along every beam: .json .csv
+    #[arg(long, value_name = "FILE")]
+    pub(crate) sections: Option<PathBuf>,
+
     /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
     #[arg(long, value_name = "KG/M3", default_value_t = 7850.0)]
     pub(crate) density: f64,

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use beamwright::output::sections::SectionFormat;
 use beamwright::output::summary::Summary;
-use beamwright::output::{OutputFiles, assembly, check_target, cut_list, step};
+use beamwright::output::{OutputFiles, assembly, check_target, cut_list, sections, step};
 use beamwright::pipeline::{self, Outcome};
 use beamwright::skeleton_file;
 
@@ -42,6 +43,7 @@ struct Targets {
     cut_list: PathBuf,
     skeleton: PathBuf,
     skeleton_format: skeleton_file::Format,
+    sections: Option<(PathBuf, SectionFormat)>,
 }
 
 impl Targets {
@@ -60,7 +62,9 @@ impl Targets {
         let beside = |ending: &str| step.with_extension(ending);
         let cut_list = args.output.cut_list.clone().unwrap_or_else(|| beside("csv"));
         let skeleton = args.output.skeleton.clone().unwrap_or_else(|| beside("skeleton.json"));
-        let all = [&step, &cut_list, &skeleton];
+        let sections = args.output.sections.as_deref().map(section_target).transpose()?;
+        let mut all = vec![&step, &cut_list, &skeleton];
+        all.extend(sections.as_ref().map(|(path, _)| path));
         for (i, target) in all.iter().enumerate() {
             check_target(target).map_err(Failure::input)?;
             if same_file(target, &args.input.input) {
@@ -73,8 +77,21 @@ impl Targets {
                 return Err(Failure::usage(format!("{} is named twice", target.display())));
             }
         }
-        Ok(Self { skeleton_format: skeleton_format(&skeleton)?, step, cut_list, skeleton })
+        Ok(Self {
+            skeleton_format: skeleton_format(&skeleton)?,
+            step,
+            cut_list,
+            skeleton,
+            sections,
+        })
     }
+}
+
+fn section_target(path: &Path) -> Result<(PathBuf, SectionFormat), Failure> {
+    let format = SectionFormat::of(path).ok_or_else(|| {
+        Failure::usage(format!("the sections {} must end in .json or .csv", path.display()))
+    })?;
+    Ok((path.to_owned(), format))
 }
 
 /// Whether two paths name one existing file.
@@ -99,6 +116,12 @@ fn write(targets: &Targets, args: &ReconstructArgs, outcome: &Outcome) -> Result
             })
         })
         .map_err(Failure::input)?;
+    if let Some((path, format)) = &targets.sections {
+        let Outcome { skeleton, sections, frame, .. } = outcome;
+        files
+            .add(path, |out| sections::write(*format, skeleton, sections, frame, out))
+            .map_err(Failure::input)?;
+    }
     if interrupted() {
         return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
     }

@@ -111,6 +111,8 @@ impl Moments {
 /// A section of the mesh seen along a beam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeamStation {
+    /// The skeletal point it was measured at.
+    pub point: u32,
     /// Part 0..1 of the beam's length.
     pub at: f64,
     /// Contour in y, z about its centroid, mm.
@@ -121,6 +123,13 @@ pub struct BeamStation {
     pub off_axis: f64,
     /// 1 for a section like its neighbours, towards 0 for one swollen by a junction.
     pub weight: f64,
+}
+
+impl BeamStation {
+    /// Whether it is so much larger or smaller than its neighbours that it hardly counts.
+    pub fn is_outlier(&self) -> bool {
+        self.weight < 0.5
+    }
 }
 
 /// Sections along a beam and what they say together.
@@ -150,6 +159,7 @@ impl BeamSection {
                 let moments = Moments::of_polygon(&contour);
                 let off_axis = axes.across(&to).coords.norm();
                 BeamStation {
+                    point: s.point,
                     at: to.dot(&axes.x) / length,
                     contour,
                     moments,
@@ -165,9 +175,9 @@ impl BeamSection {
         Self { stations, mean, ends }
     }
 
-    /// Sections that are much larger or smaller than their neighbours.
+    /// Number of sections that are much larger or smaller than their neighbours.
     pub fn outliers(&self) -> usize {
-        self.stations.iter().filter(|s| s.weight < 0.5).count()
+        self.stations.iter().filter(|s| s.is_outlier()).count()
     }
 }
 
@@ -258,6 +268,7 @@ mod tests {
     #[test]
     fn swollen_ends_do_not_change_the_mean() {
         let station = |at: f64, radius: f64| BeamStation {
+            point: 0,
             at,
             contour: Vec::new(),
             moments: Moments { area: std::f64::consts::PI * radius * radius, ..Moments::default() },

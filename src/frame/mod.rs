@@ -16,6 +16,7 @@
 //! | 6 | a profile for every beam | [`profiles`] |
 
 pub mod beam_section;
+mod measured;
 pub mod normalize;
 pub mod params;
 pub mod profiles;
@@ -24,7 +25,7 @@ pub mod shape;
 mod solve;
 mod straighten;
 
-pub use beam_section::{BeamAxes, BeamSection, Moments};
+pub use beam_section::{BeamAxes, BeamSection, BeamStation, Moments};
 pub use normalize::{Normalized, normalize};
 pub use params::{FrameParams, ProfileParams};
 pub use profiles::match_profiles;
@@ -34,6 +35,7 @@ pub use shape::{BeamShape, Loft};
 use nalgebra::{Point3, Unit, Vector3};
 
 use crate::mesh::id::id_type;
+use crate::section::MatchTarget;
 
 id_type!(
     /// An end of beams.
@@ -66,12 +68,23 @@ pub struct Node {
     pub kind: NodeKind,
 }
 
+/// A node that a beam passes without being cut there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Passage {
+    /// The node; it lies on the axis of the beam.
+    pub node: NodeId,
+    /// The branch the beam runs along from there on.
+    pub branch: u32,
+}
+
 /// A straight piece between two nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
     /// Its nodes.
     pub ends: [NodeId; 2],
-    /// The branch of the skeleton it is a part of.
+    /// Nodes on its way, from the first end to the second; only with through-going members.
+    pub passes: Vec<Passage>,
+    /// The branch of the skeleton it is a part of; of a through-going member, the first.
     pub branch: u32,
     /// Its axes; y and z are the principal axes of its mean section.
     pub axes: BeamAxes,
@@ -81,10 +94,26 @@ pub struct Beam {
     pub cut_length: f64,
     /// What the sections along it say.
     pub section: BeamSection,
+    /// Means of the sections that are its own, what the profile is matched to; angles are those
+    /// from its axis y.  `None` where nothing was measured.
+    pub measured: Option<MatchTarget>,
     /// Section area to assume where nothing was measured, mm².
     pub assumed_area: f64,
     /// The solid it is built as.
     pub shape: BeamShape,
+}
+
+impl Beam {
+    /// Its parts from node to node, with the branch each runs along: one, and one more for
+    /// each node it passes.
+    pub fn spans(&self) -> impl Iterator<Item = ([NodeId; 2], u32)> + '_ {
+        let nodes: Vec<NodeId> = std::iter::once(self.ends[0])
+            .chain(self.passes.iter().map(|p| p.node))
+            .chain([self.ends[1]])
+            .collect();
+        let branches = std::iter::once(self.branch).chain(self.passes.iter().map(|p| p.branch));
+        branches.enumerate().map(move |(i, branch)| ([nodes[i], nodes[i + 1]], branch))
+    }
 }
 
 /// All nodes and beams.

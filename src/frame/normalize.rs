@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::beam_section::{BeamAxes, BeamSection};
+use super::measured::measured;
 use super::params::FrameParams;
 use super::section_at::Section;
 use super::shape::BeamShape;
@@ -259,13 +260,16 @@ fn beam(piece: &Piece, nodes: &[Node], sections: &[Option<Section>], fallback: f
     let (.., angle) = BeamSection::new(&found, a, length, &free).mean.principal();
     let axes = free.rolled(angle);
     let assumed_area = std::f64::consts::PI * fallback * fallback;
+    let section = BeamSection::new(&found, a, length, &axes);
     Beam {
         ends: piece.ends.map(NodeId::new),
+        passes: Vec::new(),
         branch: piece.branch as u32,
         axes,
         length,
         cut_length: length,
-        section: BeamSection::new(&found, a, length, &axes),
+        measured: measured(&section),
+        section,
         assumed_area,
         shape: BeamShape::unmatched(assumed_area),
     }

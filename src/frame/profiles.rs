@@ -6,8 +6,6 @@
 //! 3. With `max_profiles`, the profiles are reduced over the whole frame at least cost.
 //! 4. Tapered lofts get the same family at stations along the beam.
 
-use nalgebra::Point2;
-
 use super::beam_section::{BeamSection, Moments};
 use super::params::ProfileParams;
 use super::shape::{BeamShape, Loft, ShapeStation};
@@ -15,19 +13,15 @@ use super::{Beam, Frame};
 use crate::finding::{Finding, FindingKind};
 use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
-use crate::section::freeform::average_outline;
 use crate::section::matching::{
     MatchError, MatchMode, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
     match_profile, reduce_profiles,
 };
-use crate::section::properties::{Contours, SectionProperties};
+use crate::section::properties::Contours;
 
 /// Sections and lengths that agree within this part are meant to be equal. The two halves of a
 /// mirrored voxel part agree within half of it, struts that were designed to differ do not.
 const EQUAL: f64 = 0.02;
-
-/// Points of an averaged contour: a round one is followed within a thousandth of its radius.
-const OUTLINE_POINTS: usize = 48;
 
 /// Worst error of I₁ or I₂ that goes without a finding.
 const POOR_MATCH: f64 = 0.25;
@@ -42,7 +36,7 @@ pub fn match_profiles(
     catalogue: &Catalogue,
 ) -> Result<Vec<Finding>, MatchError> {
     let targets: Vec<Option<MatchTarget>> =
-        frame.beams.iter().map(|b| target(&b.section)).collect();
+        frame.beams.iter().map(|b| b.measured.clone()).collect();
     let measured: Vec<usize> = (0..targets.len()).filter(|&i| targets[i].is_some()).collect();
     let pairs: Vec<(MatchTarget, f64)> = measured
         .iter()
@@ -76,34 +70,6 @@ pub fn match_profiles(
 /// Lengths of equal beams are made equal when they differ by less than this part of the radius:
 /// what a saw can do.
 const SAME_LENGTH: f64 = 0.1;
-
-/// What a beam is matched to; `None` without a measured section.
-fn target(section: &BeamSection) -> Option<MatchTarget> {
-    let contour = mean_contour(section)?;
-    let properties = SectionProperties::of_contours(&Contours::solid(contour.clone())).ok()?;
-    let (i_1, i_2, principal_angle) = section.mean.principal();
-    // J belongs to the averaged contour; as the area is the mean of the areas, so is J scaled.
-    let scale = section.mean.area / properties.area;
-    Some(MatchTarget {
-        area: section.mean.area,
-        i_1,
-        i_2,
-        j: properties.j * scale * scale,
-        principal_angle,
-        contours: Some(Contours::solid(contour)),
-    })
-}
-
-/// The averaged contour of the sections that belong to the beam alone.
-fn mean_contour(section: &BeamSection) -> Option<Vec<Point2<f64>>> {
-    let mut clean: Vec<Vec<Point2<f64>>> =
-        section.stations.iter().filter(|s| s.weight >= 0.5).map(|s| s.contour.clone()).collect();
-    if clean.is_empty() {
-        clean = section.stations.iter().map(|s| s.contour.clone()).collect();
-    }
-    let outline = average_outline(&clean, OUTLINE_POINTS).ok()?;
-    Some(outline.points().to_vec())
-}
 
 fn reduce(
     matched: &mut [Matched],
@@ -173,7 +139,7 @@ fn scaled_target(own: &MatchTarget, there: &Moments) -> MatchTarget {
 
 /// End values and up to three means between them.
 fn along(section: &BeamSection) -> Vec<(f64, Moments)> {
-    let inner = section.stations.iter().filter(|s| s.weight >= 0.5);
+    let inner = section.stations.iter().filter(|s| !s.is_outlier());
     let inner: Vec<(f64, Moments)> = inner.map(|s| (s.at, s.moments)).collect();
     let mut places = vec![(0.0, section.ends[0])];
     for k in 1..4 {

@@ -4,11 +4,15 @@ use nalgebra::{Point2, Point3, Unit};
 
 use crate::mesh::Surface;
 use crate::mesh::contour::{Extent, Plane, contour_round};
+use crate::section::properties::Contours;
+use crate::section::{SectionError, SectionProperties};
 use crate::skeleton::{PointKind, Skeleton};
 
 /// A plane section of one branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
+    /// The skeletal point, counted from 0.
+    pub point: u32,
     /// Through the skeletal point, across the branch.
     pub plane: Plane,
     /// The closed contour, counter-clockwise seen against the plane's normal, mm.
@@ -23,6 +27,14 @@ impl Section {
     /// Radius of the disc of equal area, mm.
     pub fn radius(&self) -> f64 {
         (self.area / std::f64::consts::PI).sqrt()
+    }
+
+    /// All its area properties, in the plane's axes; the torsion constant takes the time.
+    ///
+    /// # Errors
+    /// A contour that crosses itself or is no region.
+    pub fn properties(&self) -> Result<SectionProperties, SectionError> {
+        SectionProperties::of_contours(&Contours::solid(self.outline()))
     }
 
     /// The contour in the plane's axes about its centroid, mm.
@@ -49,7 +61,7 @@ pub fn sections(surface: &Surface, skeleton: &Skeleton) -> Vec<Option<Section>> 
             let [before, at, after] = [w[0], w[1], w[2]].map(|p| skeleton.position(p));
             let point = &skeleton.points[w[1] as usize];
             if point.kind == PointKind::Branch {
-                found[w[1] as usize] = section(surface, at, after - before, point.radius);
+                found[w[1] as usize] = section(surface, w[1], at, after - before, point.radius);
             }
         }
     }
@@ -58,6 +70,7 @@ pub fn sections(surface: &Surface, skeleton: &Skeleton) -> Vec<Option<Section>> 
 
 fn section(
     surface: &Surface,
+    point: u32,
     at: Point3<f64>,
     along: nalgebra::Vector3<f64>,
     radius: f64,
@@ -65,5 +78,5 @@ fn section(
     let plane = Plane::new(at, Unit::try_new(along, 0.0)?);
     let contour = contour_round(&surface.mesh, &surface.tree, &plane, REACH * radius)?;
     let Extent { centroid, area, .. } = Extent::of(&contour, &plane);
-    (area > 0.0).then_some(Section { plane, contour: contour.points, area, centroid })
+    (area > 0.0).then_some(Section { point, plane, contour: contour.points, area, centroid })
 }

@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Write};
 
 use serde::Serialize;
 
+use super::beam_table::{self, BeamRow};
 use crate::finding::Finding;
 use crate::frame::Frame;
 use crate::mesh::{InterfaceKind, InterfaceSection, Label, MeshReport, Surface};
@@ -107,6 +108,8 @@ pub struct FrameSummary {
     pub volume: f64,
     /// Volume of the design part, mm³.
     pub design_volume: f64,
+    /// The beams one by one.
+    pub table: Vec<BeamRow>,
 }
 
 /// A finding, as printed.
@@ -168,6 +171,7 @@ impl Summary {
             length: frame.beams.iter().map(|b| b.length).sum(),
             volume: frame.beams.iter().map(|b| b.length * b.shape.properties.area).sum(),
             design_volume: surface.design_volume(),
+            table: beam_table::rows(frame),
         });
         self
     }

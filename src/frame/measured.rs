@@ -1,0 +1,49 @@
+//! The mean section of a beam, measured on the sections that are its own.
+
+use nalgebra::Point2;
+
+use super::beam_section::{BeamSection, BeamStation};
+use crate::section::MatchTarget;
+use crate::section::freeform::average_outline;
+use crate::section::properties::{Contours, SectionProperties};
+
+/// Points of an averaged contour: a round one is followed within a thousandth of its radius.
+const OUTLINE_POINTS: usize = 48;
+
+/// What the sections of a beam say together; `None` without a section.
+///
+/// A and the second moments are means over the sections, J is that of the mean contour.
+pub(super) fn measured(section: &BeamSection) -> Option<MatchTarget> {
+    let contour = mean_contour(section)?;
+    let properties = SectionProperties::of_contours(&Contours::solid(contour.clone())).ok()?;
+    let (i_1, i_2, principal_angle) = section.mean.principal();
+    // J grows with the square of the area, and the area is the mean of the areas.
+    let scale = section.mean.area / properties.area;
+    Some(MatchTarget {
+        area: section.mean.area,
+        i_1,
+        i_2,
+        j: properties.j * scale * scale,
+        principal_angle,
+        contours: Some(Contours::solid(contour)),
+    })
+}
+
+/// The averaged contour of the sections that belong to the beam alone; where they have none, the
+/// contour whose area is nearest to the mean.
+fn mean_contour(section: &BeamSection) -> Option<Vec<Point2<f64>>> {
+    let is_clean = |s: &&BeamStation| !s.is_outlier();
+    let all_swollen = !section.stations.iter().any(|s| is_clean(&s));
+    let contours: Vec<Vec<Point2<f64>>> = section
+        .stations
+        .iter()
+        .filter(|s| all_swollen || is_clean(s))
+        .map(|s| s.contour.clone())
+        .collect();
+    if let Ok(outline) = average_outline(&contours, OUTLINE_POINTS) {
+        return Some(outline.points().to_vec());
+    }
+    let off = |s: &BeamStation| (s.moments.area - section.mean.area).abs();
+    let nearest = section.stations.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    Some(nearest.contour.clone())
+}
