@@ -44,7 +44,8 @@ const RECONSTRUCT_EXAMPLES: &str = "\
 Examples:
   beamwright reconstruct part.obj -o part.step
   beamwright reconstruct part.stl --non-design pads.stl -o part.step --cut-list part.csv
-  beamwright reconstruct part.ply -o part.step --skeleton part.json --json";
+  beamwright reconstruct part.ply -o part.step --skeleton part.json --json
+  beamwright reconstruct part.ply -o part.step --export part.mlp      (opens in MeshLab)";
 
 const SKELETON_EXAMPLES: &str = "\
 Examples:
@@ -252,6 +253,10 @@ pub(crate) struct OutputArgs {
     /// Section properties at every skeletal point and along every beam: .json .csv
     #[arg(long, value_name = "FILE")]
     pub(crate) sections: Option<PathBuf>,
+
+    /// What else to write, by extension: .mlp (MeshLab project with its layers); may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) export: Vec<PathBuf>,
 
     /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
     #[arg(long, value_name = "KG/M3", default_value_t = 7850.0)]

@@ -3,6 +3,7 @@
 mod args;
 mod evaluate;
 mod exit;
+mod export;
 mod inspect;
 mod progress;
 mod reconstruct;

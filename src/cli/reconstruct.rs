@@ -10,6 +10,7 @@ use beamwright::skeleton_file;
 
 use super::args::{GlobalArgs, ReconstructArgs};
 use super::exit::{Exit, Failure};
+use super::export::Export;
 use super::progress::{Progress, interrupted};
 use super::show;
 use super::skeleton::skeleton_format;
@@ -44,6 +45,7 @@ struct Targets {
     skeleton: PathBuf,
     skeleton_format: skeleton_file::Format,
     sections: Option<(PathBuf, SectionFormat)>,
+    exports: Vec<Export>,
 }
 
 impl Targets {
@@ -63,8 +65,11 @@ impl Targets {
         let cut_list = args.output.cut_list.clone().unwrap_or_else(|| beside("csv"));
         let skeleton = args.output.skeleton.clone().unwrap_or_else(|| beside("skeleton.json"));
         let sections = args.output.sections.as_deref().map(section_target).transpose()?;
-        let mut all = vec![&step, &cut_list, &skeleton];
-        all.extend(sections.as_ref().map(|(path, _)| path));
+        let exports: Vec<Export> =
+            args.output.export.iter().map(|path| Export::new(path)).collect::<Result<_, _>>()?;
+        let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone()];
+        all.extend(sections.iter().map(|(path, _)| path.clone()));
+        all.extend(exports.iter().flat_map(Export::targets));
         for (i, target) in all.iter().enumerate() {
             check_target(target).map_err(Failure::input)?;
             if same_file(target, &args.input.input) {
@@ -83,6 +88,7 @@ impl Targets {
             cut_list,
             skeleton,
             sections,
+            exports,
         })
     }
 }
@@ -121,6 +127,9 @@ fn write(targets: &Targets, args: &ReconstructArgs, outcome: &Outcome) -> Result
         files
             .add(path, |out| sections::write(*format, skeleton, sections, frame, out))
             .map_err(Failure::input)?;
+    }
+    for export in &targets.exports {
+        export.add(&mut files, outcome, &document).map_err(Failure::input)?;
     }
     if interrupted() {
         return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
