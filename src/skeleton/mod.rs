@@ -9,12 +9,14 @@
 //! | module | what |
 //! |---|---|
 //! | [`local`] | the box turns with the branch (§5.2.2): the default |
+//! | [`global`] | the box stays aligned with the axes (§3.4): the thesis as written |
 //! | [`graph`] | the result: points joined to branches |
 //! | [`verify`] | what always has to hold of it |
 //!
 //! Everything is relative to the size of the part; nothing depends on the frame it is given in.
 
 pub mod error;
+pub mod global;
 pub mod graph;
 pub mod identifier_box;
 pub(crate) mod inside;
@@ -50,7 +52,8 @@ pub fn march(
 ) -> Result<Marched, SkeletonError> {
     params.check()?;
     let mut marched = match params.orientation {
-        Orientation::Local | Orientation::Global => local::skeleton(surface, params, observer)?,
+        Orientation::Local => local::skeleton(surface, params, observer)?,
+        Orientation::Global => global::skeleton(surface, params, observer)?,
     };
     marched.findings.extend(verify::verify(surface, &marched.skeleton));
     Ok(marched)

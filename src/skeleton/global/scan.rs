@@ -1,0 +1,127 @@
+//! Collects the nodes of the object between two planes across a global axis (thesis §3.4.2.3).
+//!
+//! ```text
+//!        ┆        ┆          the nodes inside the initial box come first; then every design node
+//!   ─────●──●──●──●─────     between the two planes that hangs together with them is added, and
+//!        ┆┌┈┈┈┈┈┐┆           the box grows to hold them all
+//!        ┆┊ box ┊┆
+//!   ─────●──●──●──●─────
+//!        ┆        ┆
+//! ```
+
+use nalgebra::Point3;
+
+use super::direction::Direction;
+use super::identifier_box::IdentifierBox;
+use crate::mesh::Surface;
+use crate::mesh::id::HalfEdgeId;
+
+/// The design nodes that hang together in one identifier box.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece {
+    /// Numbers of the nodes, in the order they were reached.
+    pub(crate) nodes: Vec<u32>,
+    /// Smallest box around them.
+    pub(crate) extent: IdentifierBox,
+    /// Their barycentre, eq. (3.2).
+    pub(crate) barycentre: Point3<f64>,
+}
+
+/// The design nodes of a surface, ready to be collected.
+pub(crate) struct Scanner<'a> {
+    surface: &'a Surface,
+    /// Design nodes by coordinate, for each axis.
+    sorted: [Vec<u32>; 3],
+    /// A design half-edge that leaves each node.
+    leaving: Vec<Option<HalfEdgeId>>,
+    /// Number of the last collection that reached each node.
+    stamps: Vec<u32>,
+    stamp: u32,
+}
+
+impl<'a> Scanner<'a> {
+    pub(crate) fn new(surface: &'a Surface) -> Self {
+        let mesh = &surface.mesh;
+        let mut leaving = vec![None; mesh.positions().len()];
+        for face in mesh.faces().filter(|f| surface.labels.is_design(*f)) {
+            for h in face.half_edges() {
+                leaving[mesh.origin(h).index()].get_or_insert(h);
+            }
+        }
+        let nodes: Vec<u32> =
+            (0..leaving.len() as u32).filter(|&v| leaving[v as usize].is_some()).collect();
+        let sorted = [0, 1, 2].map(|axis| {
+            let mut by_axis = nodes.clone();
+            let at = |v: u32| mesh.positions()[v as usize][axis];
+            by_axis.sort_by(|&v, &w| at(v).total_cmp(&at(w)).then(v.cmp(&w)));
+            by_axis
+        });
+        let stamps = vec![0; leaving.len()];
+        Self { surface, sorted, leaving, stamps, stamp: 0 }
+    }
+
+    pub(crate) fn position(&self, node: u32) -> Point3<f64> {
+        self.surface.mesh.positions()[node as usize]
+    }
+
+    /// Design nodes joined to a node by an edge.
+    pub(crate) fn neighbours(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
+        let (labels, mesh) = (&self.surface.labels, &self.surface.mesh);
+        let fan = self.leaving[node as usize].into_iter().flat_map(|h| mesh.fan(h));
+        fan.filter(|h| labels.is_design(h.face()))
+            .flat_map(|h| [mesh.target(h).0, mesh.target(h.next()).0])
+    }
+
+    /// All design nodes, by their first coordinate.
+    pub(crate) fn nodes(&self) -> &[u32] {
+        &self.sorted[0]
+    }
+
+    /// Collects the pieces of the object that reach into a box, between its two faces across a
+    /// direction; those with most nodes first.
+    pub(crate) fn pieces(&mut self, seed: &IdentifierBox, direction: Direction) -> Vec<Piece> {
+        let axis = direction.axis;
+        let (from, to) = (seed.low[axis], seed.high[axis]);
+        self.stamp += 1;
+        let sorted = &self.sorted[axis];
+        let first = sorted.partition_point(|&v| self.position(v)[axis] < from);
+        let seeds: Vec<u32> = sorted[first..]
+            .iter()
+            .copied()
+            .take_while(|&v| self.position(v)[axis] <= to)
+            .filter(|&v| seed.contains(&self.position(v)))
+            .collect();
+        let mut pieces: Vec<Piece> =
+            seeds.into_iter().filter_map(|v| self.collect(v, axis, [from, to])).collect();
+        pieces.sort_by_key(|p| std::cmp::Reverse(p.nodes.len()));
+        pieces
+    }
+
+    /// Adds the connected design nodes between two planes.
+    fn collect(&mut self, seed: u32, axis: usize, [from, to]: [f64; 2]) -> Option<Piece> {
+        if std::mem::replace(&mut self.stamps[seed as usize], self.stamp) == self.stamp {
+            return None;
+        }
+        let (surface, mesh) = (self.surface, &self.surface.mesh);
+        let mut nodes = vec![seed];
+        let mut next = 0;
+        while let Some(&node) = nodes.get(next) {
+            next += 1;
+            let Some(start) = self.leaving[node as usize] else { continue };
+            for h in mesh.fan(start).filter(|h| surface.labels.is_design(h.face())) {
+                for reached in [mesh.target(h), mesh.target(h.next())] {
+                    let stamp = &mut self.stamps[reached.index()];
+                    let at = mesh.position(reached)[axis];
+                    if *stamp != self.stamp && from <= at && at <= to {
+                        *stamp = self.stamp;
+                        nodes.push(reached.0);
+                    }
+                }
+            }
+        }
+        let sum: nalgebra::Vector3<f64> = nodes.iter().map(|&v| self.position(v).coords).sum();
+        let barycentre = Point3::from(sum / nodes.len() as f64);
+        let extent = IdentifierBox::around(nodes.iter().map(|&v| self.position(v)))?;
+        Some(Piece { nodes, extent, barycentre })
+    }
+}
