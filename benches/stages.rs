@@ -48,9 +48,7 @@ pub fn stages(criterion: &mut Criterion) {
     });
     let sections = frame::sections(&surface, &marched.skeleton);
 
-    let beams = || {
-        normalize(&marched.skeleton, &sections, &surface.interfaces, &FrameParams::default()).frame
-    };
+    let beams = || normalize(&marched.skeleton, &sections, &surface, &FrameParams::default()).frame;
     group.bench_function("normalize", |b| b.iter(beams));
     let profiles = ProfileParams::default();
     group.bench_function("match profiles", |b| {

@@ -28,6 +28,8 @@ pub enum FindingKind {
     NodesMerged,
     /// A beam whose axis leaves the branch by more than wanted.
     Deviation,
+    /// A beam whose axis leaves the material.
+    BeamOutside,
     /// A section that no profile matches well.
     PoorMatch,
 }
@@ -47,6 +49,7 @@ impl FindingKind {
             Self::FreeEnd => "free-end",
             Self::NodesMerged => "nodes-merged",
             Self::Deviation => "deviation",
+            Self::BeamOutside => "beam-outside",
             Self::PoorMatch => "poor-match",
         }
     }

@@ -156,7 +156,7 @@ pub fn run(
     let sections = frame::sections(&surface, &skeleton);
     step(observer, Stage::Frame, 0)?;
     let Normalized { mut frame, findings: odd } =
-        normalize(&skeleton, &sections, &surface.interfaces, &settings.frame);
+        normalize(&skeleton, &sections, &surface, &settings.frame);
     findings.extend(odd);
     findings.extend(match_profiles(&mut frame, &settings.profiles, &catalogue)?);
     step(observer, Stage::Frame, 1)?;

@@ -203,6 +203,10 @@ pub(crate) struct FrameArgs {
     #[arg(long, value_name = "RADII", default_value_t = FrameParams::default().max_deviation)]
     pub(crate) max_deviation: f64,
 
+    /// Keep members that run straight on across a junction in one piece
+    #[arg(long)]
+    pub(crate) continuous: bool,
+
     /// Profiles: auto, round, tube, rectangle, box, ellipse, i, c, l, freeform,
     /// catalogue[:FAMILY,...]
     #[arg(long, value_name = "CHOICE", default_value = "auto")]
@@ -296,7 +300,7 @@ impl From<&MarchArgs> for SkeletonParams {
 
 impl From<&FrameArgs> for FrameParams {
     fn from(args: &FrameArgs) -> Self {
-        Self { max_deviation: args.max_deviation }
+        Self { max_deviation: args.max_deviation, continuous: args.continuous }
     }
 }
 

@@ -9,16 +9,22 @@
 //! | step | what | module |
 //! |---|---|---|
 //! | 1 | the section at every skeletal point | [`section_at`] |
-//! | 2 | bent branches broken into straight pieces | `straighten` |
+//! | 2 | bent branches broken into straight pieces | `straighten`, `pieces` |
 //! | 3 | all nodes moved so that the axes run in the middle of the material | `solve` |
-//! | 4 | nodes closer than a section radius made one | `normalize` |
-//! | 5 | mean and end values of the sections along each beam | [`beam_section`] |
-//! | 6 | a profile for every beam | [`profiles`] |
+//! | 4 | nodes that left the material held to the skeleton | `hold` |
+//! | 5 | nodes closer than a section radius made one, pieces that still bend broken | `pieces`, `deviation` |
+//! | 6 | members that run through a junction kept in one piece, if wanted | `continuous` |
+//! | 7 | mean and end values of the sections along each beam | [`beam_section`], `measured` |
+//! | 8 | a profile for every beam | [`profiles`] |
 
 pub mod beam_section;
+mod continuous;
+mod deviation;
+mod hold;
 mod measured;
 pub mod normalize;
 pub mod params;
+mod pieces;
 pub mod profiles;
 pub mod section_at;
 pub mod shape;

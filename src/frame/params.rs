@@ -12,11 +12,14 @@ pub struct FrameParams {
     /// Smaller gives more and shorter beams that follow the branch more closely.
     /// Range: `[0.05, 5]`.  Default: `0.5`.
     pub max_deviation: f64,
+    /// Whether members that run straight on across a junction are kept in one piece.
+    /// Default: no; every beam ends at its nodes.
+    pub continuous: bool,
 }
 
 impl Default for FrameParams {
     fn default() -> Self {
-        Self { max_deviation: 0.5 }
+        Self { max_deviation: 0.5, continuous: false }
     }
 }
 

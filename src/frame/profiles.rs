@@ -64,7 +64,11 @@ pub fn match_profiles(
     for i in (0..targets.len()).filter(|&i| targets[i].is_none()) {
         frame.beams[i].shape = unmeasured(frame, i);
     }
-    Ok(poor_matches(frame))
+    let mut findings = poor_matches(frame);
+    if params.choice == ProfileChoice::Freeform {
+        findings.extend(no_outlines(frame));
+    }
+    Ok(findings)
 }
 
 /// Lengths of equal beams are made equal when they differ by less than this part of the radius:
@@ -170,6 +174,26 @@ fn unmeasured(frame: &Frame, index: usize) -> BeamShape {
     let own = frame.beams[index].assumed_area;
     let area = if areas.is_empty() { own } else { areas.iter().sum::<f64>() / areas.len() as f64 };
     BeamShape::unmatched(area)
+}
+
+/// Names the beams whose contour no smooth outline follows.
+fn no_outlines(frame: &Frame) -> Vec<Finding> {
+    let is_other = |b: &Beam| b.measured.is_some() && b.shape.profile.family() != "freeform";
+    let beams = frame.beams.iter().enumerate().filter(|(_, b)| is_other(b));
+    beams
+        .map(|(i, beam)| {
+            let [a, b] = frame.axis(beam);
+            Finding::note(
+                FindingKind::PoorMatch,
+                Some(nalgebra::center(&a, &b)),
+                format!(
+                    "beam {}: no smooth outline follows its contour; it is {}",
+                    i + 1,
+                    beam.shape.name()
+                ),
+            )
+        })
+        .collect()
 }
 
 fn poor_matches(frame: &Frame) -> Vec<Finding> {

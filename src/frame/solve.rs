@@ -1,14 +1,16 @@
 //! Solves all nodes together so that the axes run through the middle of the material.
 //!
-//! Every section centroid c at the part t of a beam between the nodes a and b pulls at both:
+//! Every section centroid c at the part t of a beam between the nodes a and b pulls at both, and
+//! every node is held, faintly at first, where the skeleton has it:
 //!
 //! ```text
-//!   Σ w |(I − d dᵀ)((1 − t) a + t b − c)|²  +  Σ faint |x − x₀|²  →  min
+//!   Σ w |(I − d dᵀ)((1 − t) a + t b − c)|²  +  Σ hold |x − x₀|²  →  min
 //! ```
 //!
 //! with d the direction of the beam and w the volume the centroid stands for. Nodes of interface
-//! sections may slide in their plane only. The directions are taken anew after each solution.
-//! The normal equations are sparse and positive definite: conjugate gradients.
+//! sections may slide in their plane only; a node that a through-going member passes is tied to its
+//! axis. The directions are taken anew after each solution. The normal equations are sparse and
+//! positive definite: conjugate gradients.
 
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 
@@ -22,35 +24,75 @@ pub(crate) struct Pull {
     pub(crate) weight: f64,
 }
 
+/// Where a node is held.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Anchor {
+    /// Its place in the skeleton.
+    pub(crate) place: Point3<f64>,
+    /// Normal of the plane it may slide in, into the design part.
+    pub(crate) normal: Option<Unit<Vector3<f64>>>,
+    /// Radius of the section there, mm.
+    pub(crate) radius: f64,
+    /// How firmly it is held, against the sum of the pulls at it.
+    pub(crate) hold: f64,
+}
+
+/// A node that lies on the axis between two others.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tie {
+    pub(crate) ends: [usize; 2],
+    pub(crate) node: usize,
+}
+
 /// Times the directions are taken anew: nodes move by less than a thousandth of a radius after.
 const ROUNDS: usize = 3;
 
-/// Pull of a node to its first place, against the mean pull of a beam. It decides only along
-/// directions in which the sections say nothing.
-const FAINT: f64 = 1e-4;
+/// The faintest hold. It decides only along directions in which the sections say nothing.
+pub(crate) const FAINT: f64 = 1e-4;
 
-/// Stiffness of the planes of interface sections, against the mean pull of a beam.
-const PLANE: f64 = 1e3;
+/// Stiffness of the planes of interface sections and of ties, against the pulls at a node.
+const STIFF: f64 = 1e3;
 
-/// Moves the nodes to where the pulls want them; `planes` holds the normal of the plane a node may
-/// slide in.
+/// Moves the nodes to where the pulls want them.
 pub(crate) fn solve_nodes(
     nodes: &mut [Point3<f64>],
-    planes: &[Option<Unit<Vector3<f64>>>],
+    anchors: &[Anchor],
     pulls: &[Pull],
+    ties: &[Tie],
 ) {
-    let first: Vec<Point3<f64>> = nodes.to_vec();
-    let mean = pulls.iter().map(|p| p.weight).sum::<f64>() / nodes.len().max(1) as f64;
-    if pulls.is_empty() || mean <= 0.0 {
+    let strength = strengths(nodes.len(), pulls);
+    if pulls.is_empty() || strength.iter().all(|s| *s <= 0.0) {
         return;
     }
     for _ in 0..ROUNDS {
-        let system = System::new(nodes, &first, planes, pulls, mean);
-        let steps = system.solve();
-        for (node, step) in nodes.iter_mut().zip(steps) {
+        let mut system = System::held(nodes, anchors, &strength);
+        pulls.iter().for_each(|pull| system.add_pull(nodes, pull));
+        ties.iter().for_each(|tie| system.add_tie(nodes, tie, strength[tie.node]));
+        for (node, step) in nodes.iter_mut().zip(system.solve()) {
             *node += step;
         }
     }
+    for tie in ties {
+        let [a, b] = tie.ends.map(|n| nodes[n]);
+        nodes[tie.node] = a + (b - a) * part(&nodes[tie.node], &a, &b);
+    }
+}
+
+/// Sum of the pulls at each node; their mean where there are none.
+fn strengths(count: usize, pulls: &[Pull]) -> Vec<f64> {
+    let mut sums = vec![0.0; count];
+    for pull in pulls {
+        pull.ends.iter().for_each(|&n| sums[n] += pull.weight);
+    }
+    let mean = sums.iter().sum::<f64>() / count.max(1) as f64;
+    sums.into_iter().map(|s| if s > 0.0 { s } else { mean }).collect()
+}
+
+/// Part 0..1 of the way from `a` to `b` next to a point.
+fn part(p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
+    let along = b - a;
+    let squared = along.norm_squared();
+    if squared > 0.0 { ((p - a).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// The normal equations, kept as the small blocks they are a sum of.
@@ -63,45 +105,58 @@ struct System {
 }
 
 impl System {
-    fn new(
-        nodes: &[Point3<f64>],
-        first: &[Point3<f64>],
-        planes: &[Option<Unit<Vector3<f64>>>],
-        pulls: &[Pull],
-        mean: f64,
-    ) -> Self {
-        let mut own = vec![Matrix3::identity() * (FAINT * mean); nodes.len()];
-        let mut right: Vec<Vector3<f64>> =
-            nodes.iter().zip(first).map(|(x, x0)| (x0 - x) * (FAINT * mean)).collect();
-        for (i, normal) in planes.iter().enumerate() {
-            if let Some(n) = normal {
-                let stiff = n.into_inner() * n.transpose() * (PLANE * mean);
-                own[i] += stiff;
-                right[i] += stiff * (first[i] - nodes[i]);
+    /// Nodes held where they belong and nothing else.
+    fn held(nodes: &[Point3<f64>], anchors: &[Anchor], strength: &[f64]) -> Self {
+        let mut system = Self {
+            own: vec![Matrix3::zeros(); nodes.len()],
+            coupled: Vec::new(),
+            right: vec![Vector3::zeros(); nodes.len()],
+        };
+        for (i, anchor) in anchors.iter().enumerate() {
+            let mut block = Matrix3::identity() * (anchor.hold * strength[i]);
+            if let Some(n) = anchor.normal {
+                block += n.into_inner() * n.transpose() * (STIFF * strength[i]);
+            }
+            system.own[i] = block;
+            system.right[i] = block * (anchor.place - nodes[i]);
+        }
+        system
+    }
+
+    fn add_pull(&mut self, nodes: &[Point3<f64>], pull: &Pull) {
+        let [a, b] = pull.ends;
+        let Some(across) = across(&nodes[a], &nodes[b], pull.weight) else { return };
+        let t = part(&pull.centroid, &nodes[a], &nodes[b]);
+        let off = across * (pull.centroid - (nodes[a] + (nodes[b] - nodes[a]) * t));
+        for (n, share) in [(a, 1.0 - t), (b, t)] {
+            self.own[n] += across * (share * share);
+            self.right[n] += off * share;
+        }
+        self.couple([a, b], across * (t * (1.0 - t)));
+    }
+
+    /// The node n on the axis a b: |across ((1 − t) a + t b − n)|² with a stiff weight.
+    fn add_tie(&mut self, nodes: &[Point3<f64>], tie: &Tie, strength: f64) {
+        let [a, b] = tie.ends;
+        let n = tie.node;
+        let Some(across) = across(&nodes[a], &nodes[b], STIFF * strength) else { return };
+        let t = part(&nodes[n], &nodes[a], &nodes[b]);
+        let off = across * (nodes[n] - (nodes[a] + (nodes[b] - nodes[a]) * t));
+        let shares = [(a, 1.0 - t), (b, t), (n, -1.0)];
+        for (i, (node, share)) in shares.into_iter().enumerate() {
+            self.own[node] += across * (share * share);
+            self.right[node] += off * share;
+            for (other, its) in shares.into_iter().skip(i + 1) {
+                self.couple([node, other], across * (share * its));
             }
         }
-        let mut coupled: Vec<([usize; 2], Matrix3<f64>)> = Vec::new();
-        for pull in pulls {
-            let [a, b] = pull.ends;
-            let along = nodes[b] - nodes[a];
-            let squared = along.norm_squared();
-            if squared == 0.0 {
-                continue;
-            }
-            let across = (Matrix3::identity() - along * along.transpose() / squared) * pull.weight;
-            let t = ((pull.centroid - nodes[a]).dot(&along) / squared).clamp(0.0, 1.0);
-            let off = across * (pull.centroid - (nodes[a] + along * t));
-            own[a] += across * ((1.0 - t) * (1.0 - t));
-            own[b] += across * (t * t);
-            right[a] += off * (1.0 - t);
-            right[b] += off * t;
-            let block = across * (t * (1.0 - t));
-            match coupled.last_mut() {
-                Some((ends, sum)) if *ends == pull.ends => *sum += block,
-                _ => coupled.push((pull.ends, block)),
-            }
+    }
+
+    fn couple(&mut self, ends: [usize; 2], block: Matrix3<f64>) {
+        match self.coupled.last_mut() {
+            Some((last, sum)) if *last == ends => *sum += block,
+            _ => self.coupled.push((ends, block)),
         }
-        Self { own, coupled, right }
     }
 
     fn times(&self, x: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
@@ -152,6 +207,14 @@ impl System {
     }
 }
 
+/// The projection across the axis a b, weighted; `None` where they coincide.
+fn across(a: &Point3<f64>, b: &Point3<f64>, weight: f64) -> Option<Matrix3<f64>> {
+    let along = b - a;
+    let squared = along.norm_squared();
+    let projection = Matrix3::identity() - along * along.transpose() / squared;
+    (squared > 0.0).then(|| projection * weight)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,8 +236,33 @@ mod tests {
         let mut nodes = truth;
         nodes[1] += Vector3::new(-0.8, 0.5, 0.3);
         nodes[0] += Vector3::new(0.0, 0.2, -0.4);
-        solve_nodes(&mut nodes, &[Some(Vector3::x_axis()), None, None], &pulls);
+        let anchors = anchors(&nodes, &[Some(Vector3::x_axis()), None, None]);
+        solve_nodes(&mut nodes, &anchors, &pulls, &[]);
         assert!((nodes[1] - truth[1]).norm() < 1e-2, "{}", nodes[1]);
         assert!((nodes[0] - truth[0]).norm() < 1e-2, "{}", nodes[0]);
+    }
+
+    fn anchors(nodes: &[Point3<f64>], normals: &[Option<Unit<Vector3<f64>>>]) -> Vec<Anchor> {
+        let anchor = |(&place, &normal)| Anchor { place, normal, radius: 1.0, hold: FAINT };
+        nodes.iter().zip(normals).map(anchor).collect()
+    }
+
+    #[test]
+    fn a_tied_node_lies_on_the_axis_of_the_member_that_passes_it() {
+        let mut nodes = [[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [11.0, 0.7, 0.2], [11.0, 9.0, 0.0]]
+            .map(Point3::from);
+        let pull =
+            |ends, x: f64, y: f64| Pull { ends, centroid: Point3::new(x, y, 0.0), weight: 1.0 };
+        let pulls = [
+            pull([0, 1], 4.0, 0.1),
+            pull([0, 1], 16.0, 0.1),
+            pull([2, 3], 11.0, 3.0),
+            pull([2, 3], 11.0, 6.0),
+        ];
+        let anchors = anchors(&nodes, &[None; 4]);
+        solve_nodes(&mut nodes, &anchors, &pulls, &[Tie { ends: [0, 1], node: 2 }]);
+        assert!((nodes[2] - Point3::new(11.0, 0.1, 0.0)).norm() < 0.02, "{}", nodes[2]);
+        let off = (nodes[2] - nodes[0]).cross(&(nodes[1] - nodes[0])).norm();
+        assert!(off < 1e-9, "{off}");
     }
 }

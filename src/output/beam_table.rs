@@ -122,8 +122,6 @@ fn row(index: usize, beam: &Beam, frame: &Frame) -> BeamRow {
     let [start, end] = frame.axis(beam);
     let shape = &beam.shape;
     let designation = shape.profile.designation.as_ref();
-    let family =
-        designation.map_or_else(|| shape.profile.shape.family().to_owned(), |d| d.family.clone());
     BeamRow {
         mark: mark(index),
         branches: beam.spans().map(|(_, branch)| branch).collect(),
@@ -134,7 +132,7 @@ fn row(index: usize, beam: &Beam, frame: &Frame) -> BeamRow {
         length: beam.length,
         cut_length: beam.cut_length,
         measured: beam.measured.as_ref().map(|target| measured(target, beam)),
-        family,
+        family: shape.profile.family().to_owned(),
         profile: shape.name(),
         standard: designation.map(|d| d.standard.clone()),
         area: shape.properties.area,

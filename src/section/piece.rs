@@ -162,7 +162,8 @@ pub(crate) fn arc_between(from: Point2<f64>, to: Point2<f64>, sweep: f64) -> Vec
         .collect()
 }
 
-fn cubic_at(b: &[Point2<f64>; 4], t: f64) -> (Point2<f64>, Vector2<f64>) {
+/// Point and derivative of a cubic in Bézier form.
+pub(crate) fn cubic_at(b: &[Point2<f64>; 4], t: f64) -> (Point2<f64>, Vector2<f64>) {
     let s = 1.0 - t;
     let mix = |w: [f64; 4]| {
         b[0].coords * w[0] + b[1].coords * w[1] + b[2].coords * w[2] + b[3].coords * w[3]

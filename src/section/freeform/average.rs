@@ -4,7 +4,8 @@
 //! 2. If every contour is seen from its centroid whole (each ray meets it once), the mean outline
 //!    has in every direction the root mean square of the radii: its area is the mean area.
 //!    Otherwise contours are paired by the part of the way around, from where the strong axis
-//!    leaves them, and averaged point by point.
+//!    leaves them, and averaged point by point. If that mean crosses itself, as that of contours
+//!    that fold in different places does, the farthest radii are taken after all.
 //! 3. The outline is sampled at equal distances and stretched along its principal axes and turned
 //!    such that the spline through the samples has the mean area, the mean principal direction and
 //!    the mean ratio of I_1 to I_2.
@@ -42,6 +43,10 @@ pub enum AverageError {
         /// What is wrong with it.
         fault: SectionError,
     },
+
+    /// Every smooth outline that was tried crosses itself.
+    #[error("no smooth outline follows the contours without crossing itself")]
+    NoSimpleOutline,
 }
 
 /// Fewest points of an outline: a spline through 8 points is a circle to 0.2 %.
@@ -90,12 +95,20 @@ pub fn average_outline(
         centred.push(about_centroid(contour, moments.centroid()));
     }
     let samples = SAMPLES_PER_POINT * points;
+    let curve = |mean: Vec<Point2<f64>>| smooth(&mean, points, &goal);
     let mean =
         by_rays(&centred, samples).unwrap_or_else(|| by_way_around(&centred, samples, &goal));
-    let corners = evenly_spaced(&mean, mean[0], points);
-    let curve =
-        Freeform::through(corners).map_err(|fault| AverageError::Contour { index: 0, fault })?;
-    Ok(with_area_of(&with_moments_of(&with_moments_of(&curve, &goal), &goal), &goal))
+    curve(mean)
+        .or_else(|| curve(by_farthest(&centred, samples)))
+        .ok_or(AverageError::NoSimpleOutline)
+}
+
+/// The spline along a mean outline with the moments of `goal`; `None` if it crosses itself.
+fn smooth(mean: &[Point2<f64>], points: usize, goal: &Moments) -> Option<Freeform> {
+    let corners = evenly_spaced(mean, mean[0], points);
+    let curve = Freeform::through(corners).ok().filter(Freeform::is_simple)?;
+    let curve = with_area_of(&with_moments_of(&with_moments_of(&curve, goal), goal), goal);
+    curve.points().iter().all(|p| p.x.is_finite() && p.y.is_finite()).then_some(curve)
 }
 
 /// The contour about the origin, counter-clockwise.
@@ -121,6 +134,21 @@ fn by_rays(contours: &[Vec<Point2<f64>>], samples: usize) -> Option<Vec<Point2<f
                 squares += radius * radius;
             }
             Some((direction * (squares / contours.len() as f64).sqrt()).into())
+        })
+        .collect()
+}
+
+/// Root mean square of the farthest radii over even directions: an outline without folds.
+fn by_farthest(contours: &[Vec<Point2<f64>>], samples: usize) -> Vec<Point2<f64>> {
+    (0..samples)
+        .map(|i| {
+            let (sin, cos) = (TAU * i as f64 / samples as f64).sin_cos();
+            let direction = Vector2::new(cos, sin);
+            let farthest = |c: &Vec<_>| {
+                crossings(c, Point2::origin(), direction).last().copied().unwrap_or(0.0)
+            };
+            let squares: f64 = contours.iter().map(|c| farthest(c).powi(2)).sum();
+            (direction * (squares / contours.len() as f64).sqrt()).into()
         })
         .collect()
 }

@@ -6,6 +6,7 @@
 //! points.
 
 mod average;
+mod simple;
 
 use nalgebra::{Point2, Rotation2, Vector2};
 

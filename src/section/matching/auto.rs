@@ -40,7 +40,13 @@ pub(super) fn simplest(target: &MatchTarget, mode: MatchMode) -> Result<Matched,
     if uncovered <= MOST_UNCOVERED {
         Matched::of(Profile::new(fitted(&family, target, mode)?)?, target)
     } else {
-        roll::freeform(target, mode)
+        roll::freeform(target, mode).or_else(|fault| match fault {
+            // The best of the families, however much it leaves uncovered.
+            MatchError::Average(_) => {
+                Matched::of(Profile::new(fitted(&family, target, mode)?)?, target)
+            }
+            fault => Err(fault),
+        })
     }
 }
 

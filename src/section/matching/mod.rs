@@ -114,7 +114,8 @@ pub enum MatchError {
 ///
 /// # Errors
 /// If the target has a property that is not positive, a family is unknown, no catalogue profile is
-/// strong enough, or a freeform outline is asked for without a contour.
+/// strong enough, or a freeform outline is asked for without a contour. A contour that no smooth
+/// outline follows gets the simplest family instead.
 ///
 /// # Examples
 /// ```
@@ -137,7 +138,12 @@ pub fn match_profile(
     target.check()?;
     let profile = match choice {
         ProfileChoice::Auto => return auto::simplest(target, mode),
-        ProfileChoice::Freeform => return roll::freeform(target, mode),
+        ProfileChoice::Freeform => {
+            return roll::freeform(target, mode).or_else(|fault| match fault {
+                MatchError::Average(_) => auto::simplest(target, mode),
+                fault => Err(fault),
+            });
+        }
         ProfileChoice::Catalogue(families) => {
             nearest::nearest(target, mode, &catalogue.of_families(families)?)?.clone()
         }

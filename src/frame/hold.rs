@@ -1,0 +1,71 @@
+//! Keeps nodes and axes in the material.
+//!
+//! The axes of beams that meet at an acute angle, or bend before they meet, cross far from their
+//! junction: beyond an interface section, or outside of the object. A node that left is held more
+//! firmly to its place in the skeleton, which lies inside, until it stays.
+
+use nalgebra::{Point3, Vector3};
+
+use super::NodeKind;
+use super::pieces::{Making, Piece};
+use crate::mesh::TriangleTree;
+
+/// How far a node slides in the plane of its interface section, in radii of that section. Struts
+/// that leave their pad bent want to slide to its rim; oblique ones with fillets by a tenth.
+const FARTHEST_SLIDE: f64 = 0.35;
+
+/// Factor by which a node that left is held more firmly.
+const FIRMER: f64 = 10.0;
+
+/// Hold at which a node stays where the skeleton has it.
+const FIRMEST: f64 = 1e2;
+
+/// Part of a beam's length left out at both ends when its axis is looked at: the ends of a beam may
+/// lie in the surface.
+const ENDS: f64 = 0.01;
+
+/// Holds nodes that left the material more firmly; whether there was any.
+pub(super) fn hold_nodes_inside(making: &mut Making<'_>, tree: &TriangleTree) -> bool {
+    let mut leaving: Vec<bool> =
+        (0..making.nodes.len()).map(|n| has_left(making, n, tree)).collect();
+    for piece in &making.pieces {
+        if leaves_material(making, piece, tree) {
+            piece.ends.iter().for_each(|&n| leaving[n] = true);
+        }
+    }
+    let mut held = false;
+    for (anchor, leaves) in making.anchors.iter_mut().zip(leaving) {
+        if leaves && anchor.hold < FIRMEST {
+            anchor.hold *= FIRMER;
+            held = true;
+        }
+    }
+    held
+}
+
+fn has_left(making: &Making<'_>, node: usize, tree: &TriangleTree) -> bool {
+    let (at, anchor) = (making.nodes[node].position, &making.anchors[node]);
+    match making.nodes[node].kind {
+        NodeKind::Interface => (at - anchor.place).norm() > FARTHEST_SLIDE * anchor.radius,
+        NodeKind::End => false,
+        NodeKind::Junction | NodeKind::Bend => {
+            !tree.contains(&at) || is_beyond_an_interface(making, node, &at)
+        }
+    }
+}
+
+/// Whether a node is beyond the plane of an interface section that a piece of its own ends in.
+fn is_beyond_an_interface(making: &Making<'_>, node: usize, at: &Point3<f64>) -> bool {
+    making.pieces.iter().filter(|p| p.ends.contains(&node)).any(|piece| {
+        piece.ends.iter().map(|&other| &making.anchors[other]).any(|anchor| {
+            anchor.normal.is_some_and(|n| (at - anchor.place).dot(&Vector3::from(*n)) < 0.0)
+        })
+    })
+}
+
+/// Whether the axis of a piece leaves the material between its ends.
+pub(super) fn leaves_material(making: &Making<'_>, piece: &Piece, tree: &TriangleTree) -> bool {
+    let [a, b] = making.axis(piece);
+    let (from, to) = (a + (b - a) * ENDS, b - (b - a) * ENDS);
+    a != b && (!tree.contains(&from) || tree.is_crossed_by(&from, &to))
+}

@@ -1,0 +1,241 @@
+//! Nodes and straight pieces in the making: what normalization moves, breaks and joins.
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::beam_section::{BeamAxes, BeamSection};
+use super::params::FrameParams;
+use super::section_at::Section;
+use super::solve::{Anchor, Pull, Tie, solve_nodes};
+use super::straighten::breaks;
+use super::{Node, NodeKind, direction};
+use crate::finding::{Finding, FindingKind};
+use crate::mesh::InterfaceSection;
+use crate::skeleton::{Branch, PointKind, Skeleton};
+
+/// One straight piece before its node positions are final.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub(super) ends: [usize; 2],
+    pub(super) branch: usize,
+    /// Nodes on the way and the branches that follow them.
+    pub(super) passes: Vec<(usize, usize)>,
+    /// Skeletal points on the way, ends left out.
+    pub(super) points: Vec<u32>,
+}
+
+/// A branch is not broken beforehand into pieces shorter than this many of its radii: next to a
+/// junction a branch turns into it, which is no bend of the beam.
+const SHORTEST_PIECE: f64 = 3.0;
+
+/// Pieces and nodes in the making.
+pub(super) struct Making<'a> {
+    pub(super) skeleton: &'a Skeleton,
+    pub(super) sections: &'a [Option<Section>],
+    pub(super) nodes: Vec<Node>,
+    /// Where each node is held.
+    pub(super) anchors: Vec<Anchor>,
+    pub(super) pieces: Vec<Piece>,
+}
+
+impl<'a> Making<'a> {
+    pub(super) fn new(
+        skeleton: &'a Skeleton,
+        sections: &'a [Option<Section>],
+        interfaces: &[InterfaceSection],
+        params: &FrameParams,
+    ) -> Self {
+        let mut making =
+            Self { skeleton, sections, nodes: vec![], anchors: vec![], pieces: vec![] };
+        let mut of_point = vec![None; skeleton.points.len()];
+        for (b, branch) in skeleton.branches.iter().enumerate() {
+            let chain = skeleton.polyline(branch);
+            let radius = mean_radius(skeleton, branch);
+            let kept = breaks(&chain, params.max_deviation * radius, SHORTEST_PIECE * radius);
+            for w in kept.windows(2) {
+                let ends = [w[0], w[1]].map(|i| {
+                    let point = branch.points[i];
+                    *of_point[point as usize]
+                        .get_or_insert_with(|| making.add_node(point, interfaces))
+                });
+                let points = branch.points[w[0] + 1..w[1]].to_vec();
+                making.pieces.push(Piece { ends, branch: b, passes: Vec::new(), points });
+            }
+        }
+        making
+    }
+
+    fn add_node(&mut self, point: u32, interfaces: &[InterfaceSection]) -> usize {
+        let position = self.skeleton.position(point);
+        let radius = self.skeleton.points[point as usize].radius;
+        let kind = match self.skeleton.points[point as usize].kind {
+            PointKind::Junction => NodeKind::Junction,
+            PointKind::Interface => NodeKind::Interface,
+            PointKind::End => NodeKind::End,
+            PointKind::Branch => NodeKind::Bend,
+        };
+        let mut anchor = Anchor::at(position, radius);
+        if kind == NodeKind::Interface {
+            let d = |i: &InterfaceSection| (i.centroid - position).norm_squared();
+            if let Some(i) = interfaces.iter().min_by(|a, b| d(a).total_cmp(&d(b))) {
+                anchor.normal = Unit::try_new(i.normal, 0.0);
+                anchor.radius = i.radius();
+            }
+        }
+        self.push_node(Node { position, kind }, anchor)
+    }
+
+    fn push_node(&mut self, node: Node, anchor: Anchor) -> usize {
+        self.nodes.push(node);
+        self.anchors.push(anchor);
+        self.nodes.len() - 1
+    }
+
+    /// Axis of a piece.
+    pub(super) fn axis(&self, piece: &Piece) -> [Point3<f64>; 2] {
+        piece.ends.map(|n| self.nodes[n].position)
+    }
+
+    /// Sections along a piece.
+    pub(super) fn sections_of(&self, piece: &Piece) -> Vec<&'a Section> {
+        piece.points.iter().filter_map(|&p| self.sections[p as usize].as_ref()).collect()
+    }
+
+    /// What the sections of a piece say, in axes turned to nothing in particular.
+    pub(super) fn beam_section(&self, piece: &Piece) -> BeamSection {
+        let [a, b] = self.axis(piece);
+        let axes = BeamAxes::along(direction(&a, &b));
+        BeamSection::new(&self.sections_of(piece), a, (b - a).norm(), &axes)
+    }
+
+    /// Mean radius of the sections of a piece, or of its points where it has none, mm.
+    pub(super) fn radius(&self, piece: &Piece) -> f64 {
+        let of_point = |&p: &u32| {
+            let own = self.skeleton.points[p as usize].radius;
+            self.sections[p as usize].as_ref().map_or(own, |s| s.radius().min(1.5 * own))
+        };
+        let sum: f64 = piece.points.iter().map(of_point).sum();
+        if piece.points.is_empty() { 0.0 } else { sum / piece.points.len() as f64 }
+    }
+
+    /// Mean radius of the branch of a piece, mm.
+    pub(super) fn branch_radius(&self, piece: &Piece) -> f64 {
+        mean_radius(self.skeleton, &self.skeleton.branches[piece.branch])
+    }
+
+    /// Moves all nodes so that the pieces run through the centroids of their sections.
+    pub(super) fn solve(&mut self) {
+        let pulls: Vec<Pull> = self.pieces.iter().flat_map(|p| self.pulls(p)).collect();
+        let ties: Vec<Tie> = self
+            .pieces
+            .iter()
+            .flat_map(|p| p.passes.iter().map(|&(node, _)| Tie { ends: p.ends, node }))
+            .collect();
+        let mut positions: Vec<Point3<f64>> = self.nodes.iter().map(|n| n.position).collect();
+        solve_nodes(&mut positions, &self.anchors, &pulls, &ties);
+        for (node, position) in self.nodes.iter_mut().zip(positions) {
+            node.position = position;
+        }
+    }
+
+    /// The centroids along a piece that tell where its axis is: not those swollen by a junction.
+    fn pulls(&self, piece: &Piece) -> Vec<Pull> {
+        let [a, b] = self.axis(piece);
+        let found = self.sections_of(piece);
+        if found.is_empty() || a == b {
+            return Vec::new();
+        }
+        let share = (b - a).norm() / found.len() as f64;
+        let section = self.beam_section(piece);
+        section
+            .stations
+            .iter()
+            .filter_map(|station| {
+                let centroid = self.sections[station.point as usize].as_ref()?.centroid;
+                // Squared: a section swollen by half has a tenth of the pull of a clean one.
+                let weight = station.weight * station.weight * station.moments.area * share;
+                Some(Pull { ends: piece.ends, centroid, weight })
+            })
+            .collect()
+    }
+
+    /// Makes one node of two that a piece shorter than a section radius joins; whether any was.
+    pub(super) fn merge_near_nodes(&mut self, findings: &mut Vec<Finding>) -> bool {
+        let before = findings.len();
+        while let Some(short) = self.pieces.iter().position(|piece| {
+            let [a, b] = self.axis(piece);
+            piece.ends[0] != piece.ends[1]
+                && (a - b).norm() < self.radius(piece)
+                && !piece.ends.iter().all(|&n| self.nodes[n].kind == NodeKind::Interface)
+        }) {
+            let [a, b] = self.pieces.remove(short).ends;
+            let (kept, gone) = if self.is_interface(b) { (b, a) } else { (a, b) };
+            let nodes = |p: &'_ mut Piece| {
+                for node in p.ends.iter_mut().chain(p.passes.iter_mut().map(|p| &mut p.0)) {
+                    if *node == gone {
+                        *node = kept;
+                    }
+                }
+            };
+            self.pieces.iter_mut().for_each(nodes);
+            findings.push(Finding::note(
+                FindingKind::NodesMerged,
+                Some(self.nodes[kept].position),
+                "two nodes closer than a section radius were made one",
+            ));
+            // A piece whose two ends became one is nothing any more.
+            self.pieces.retain(|p| p.ends[0] != p.ends[1] || p.points.len() > 2);
+        }
+        self.drop_unused_nodes();
+        findings.len() > before
+    }
+
+    pub(super) fn is_interface(&self, node: usize) -> bool {
+        self.nodes[node].kind == NodeKind::Interface
+    }
+
+    fn drop_unused_nodes(&mut self) {
+        let mut new_index = vec![usize::MAX; self.nodes.len()];
+        let (mut nodes, mut anchors) = (Vec::new(), Vec::new());
+        for piece in &mut self.pieces {
+            for end in piece.ends.iter_mut().chain(piece.passes.iter_mut().map(|p| &mut p.0)) {
+                if new_index[*end] == usize::MAX {
+                    new_index[*end] = nodes.len();
+                    nodes.push(self.nodes[*end]);
+                    anchors.push(self.anchors[*end]);
+                }
+                *end = new_index[*end];
+            }
+        }
+        (self.nodes, self.anchors) = (nodes, anchors);
+    }
+
+    /// Breaks a piece at one of its points, which becomes a node.
+    pub(super) fn split(&mut self, index: usize, at: usize) {
+        let point = self.pieces[index].points[at];
+        let position = self.sections[point as usize]
+            .as_ref()
+            .map_or_else(|| self.skeleton.position(point), |s| s.centroid);
+        let radius = self.skeleton.points[point as usize].radius;
+        let node = Node { position, kind: NodeKind::Bend };
+        let bend = self.push_node(node, Anchor::at(position, radius));
+        let mut second = self.pieces[index].clone();
+        let first = &mut self.pieces[index];
+        first.points.truncate(at);
+        first.ends[1] = bend;
+        second.points.drain(..=at);
+        second.ends[0] = bend;
+        self.pieces.insert(index + 1, second);
+    }
+}
+
+fn mean_radius(skeleton: &Skeleton, branch: &Branch) -> f64 {
+    let sum: f64 = branch.points.iter().map(|&p| skeleton.points[p as usize].radius).sum();
+    sum / branch.points.len() as f64
+}
+
+impl Anchor {
+    /// A node free to move in all directions.
+    fn at(place: Point3<f64>, radius: f64) -> Self {
+        Self { place, normal: None::<Unit<Vector3<f64>>>, radius, hold: super::solve::FAINT }
+    }
+}
