@@ -30,6 +30,7 @@ pub mod section_at;
 pub mod shape;
 mod solve;
 mod straighten;
+pub mod volume;
 
 pub use beam_section::{BeamAxes, BeamSection, BeamStation, Moments};
 pub use normalize::{Normalized, normalize};
@@ -37,6 +38,7 @@ pub use params::{FrameParams, ProfileParams};
 pub use profiles::match_profiles;
 pub use section_at::{Section, sections};
 pub use shape::{BeamShape, Loft};
+pub use volume::{FrameVolumes, volumes};
 
 use nalgebra::{Point3, Unit, Vector3};
 

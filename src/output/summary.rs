@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::beam_table::{self, BeamRow};
 use crate::finding::Finding;
-use crate::frame::Frame;
+use crate::frame::{self, Frame};
 use crate::mesh::{InterfaceKind, InterfaceSection, Label, MeshReport, Surface};
 use crate::skeleton::verify::Homotopy;
 use crate::skeleton::{PointKind, Skeleton};
@@ -104,8 +104,13 @@ pub struct FrameSummary {
     pub beams: usize,
     /// Length of all beams between their nodes, mm.
     pub length: f64,
-    /// Σ profile area × length, mm³.
+    /// Sum of the volumes of the beams from node to node, overlaps at joints counted for every
+    /// beam, mm³.
     pub volume: f64,
+    /// Volume of all beams together, overlaps at joints counted once, mm³.
+    pub volume_together: f64,
+    /// What of that lies outside of the part, mm³.
+    pub volume_outside: f64,
     /// Volume of the design part, mm³.
     pub design_volume: f64,
     /// The beams one by one.
@@ -165,11 +170,14 @@ impl Summary {
 
     /// Adds the frame.
     pub fn with_frame(mut self, surface: &Surface, frame: &Frame) -> Self {
+        let volumes = frame::volumes(frame, &surface.tree);
         self.frame = Some(FrameSummary {
             nodes: frame.nodes.len(),
             beams: frame.beams.len(),
             length: frame.beams.iter().map(|b| b.length).sum(),
-            volume: frame.beams.iter().map(|b| b.length * b.shape.properties.area).sum(),
+            volume: volumes.sum,
+            volume_together: volumes.together,
+            volume_outside: volumes.outside,
             design_volume: surface.design_volume(),
             table: beam_table::rows(frame),
         });
@@ -307,6 +315,7 @@ impl Display for Summary {
         }
         if let Some(frame) = &self.frame {
             row("frame", &frame_line(frame))?;
+            row("volume", &volume_line(frame))?;
         }
         for finding in &self.findings {
             row(if finding.breach { "BREACH" } else { "note" }, &finding_line(finding))?;
@@ -371,14 +380,18 @@ fn skeleton_line(s: &SkeletonSummary) -> String {
 }
 
 fn frame_line(frame: &FrameSummary) -> String {
+    format!("{} beams, {} nodes, {:.1} mm", frame.beams, frame.nodes, frame.length)
+}
+
+fn volume_line(frame: &FrameSummary) -> String {
+    let part = |volume: f64| 100.0 * volume / frame.design_volume;
     format!(
-        "{} beams, {} nodes, {:.1} mm; {:.0} mm³ of {:.0} mm³ design ({:+.1} %)",
-        frame.beams,
-        frame.nodes,
-        frame.length,
-        frame.volume,
+        "beams {:.0} mm³ without overlap at joints, for {:.0} mm³ of design ({:+.1} %); \
+         {:.1} % stick out",
+        frame.volume_together,
         frame.design_volume,
-        100.0 * (frame.volume / frame.design_volume - 1.0)
+        part(frame.volume_together) - 100.0,
+        part(frame.volume_outside)
     )
 }
 
