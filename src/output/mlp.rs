@@ -4,8 +4,9 @@
 //! |---|---|---|
 //! | `NAME.mlp` | – | the project: layers by relative file names |
 //! | `NAME.input.ply` | mesh | non-design faces selected (`flags` 32) and red |
-//! | `NAME.skeleton.ply` | skeleton | edges; radius in `quality`, off-centre as colour and number |
-//! | `NAME.beams.ply` | beams | triangles in the colours of the STEP file |
+//! | `NAME.skeleton.ply` | skeleton | edges; radius in `quality`, coloured by how far off centre |
+//! | `NAME.off_centre.ply` | off-centre, hidden | the same, how far off centre in `quality` |
+//! | `NAME.beams.ply` | beams | triangles in the colours of the STEP file; beam number in `quality` |
 //!
 //! MeshLab 2020.09 and PyMeshLab 2025.7 open it. The project says nothing of how layers are drawn:
 //! that part of the format differs between versions and stops some from opening it.
@@ -34,14 +35,29 @@ pub struct Project<'a> {
     pub document: &'a Document,
 }
 
-/// The files of a project: the project itself, mesh, skeleton, beams.
-pub fn targets(path: &Path) -> [PathBuf; 4] {
+/// Endings of the layers, with their labels; hidden ones wait to be shown.
+const LAYERS: [Layer; 4] = [
+    Layer { ending: ".input.ply", label: "mesh", is_shown: true },
+    Layer { ending: ".skeleton.ply", label: "skeleton", is_shown: true },
+    Layer { ending: ".off_centre.ply", label: "off-centre", is_shown: false },
+    Layer { ending: ".beams.ply", label: "beams", is_shown: true },
+];
+
+struct Layer {
+    ending: &'static str,
+    label: &'static str,
+    is_shown: bool,
+}
+
+/// The files of a project: the project itself, mesh, skeleton twice, beams.
+pub fn targets(path: &Path) -> [PathBuf; 5] {
     let beside = |ending: &str| {
         let mut name = path.file_stem().map_or_else(OsString::new, OsString::from);
         name.push(ending);
         path.with_file_name(name)
     };
-    [path.to_owned(), beside(".input.ply"), beside(".skeleton.ply"), beside(".beams.ply")]
+    let [mesh, skeleton, off_centre, beams] = LAYERS.map(|layer| beside(layer.ending));
+    [path.to_owned(), mesh, skeleton, off_centre, beams]
 }
 
 /// Adds the files of a project to those that are written together.
@@ -51,20 +67,23 @@ pub fn targets(path: &Path) -> [PathBuf; 4] {
 /// # Errors
 /// The first file that cannot be written.
 pub fn add(files: &mut OutputFiles, path: &Path, project: &Project<'_>) -> Result<(), WriteError> {
-    let [top, input, skeleton, beams] = targets(path);
-    let layers = [("mesh", &input), ("skeleton", &skeleton), ("beams", &beams)];
-    files.add(&top, |out| write_project(&layers, out))?;
-    files.add(&input, |out| write_labelled(project.surface, out))?;
+    let [top, mesh, skeleton, centre, beams] = targets(path);
     let off_centre = off_centre(project.skeleton, project.sections);
-    files.add(&skeleton, |out| write_skeleton(project.skeleton, &off_centre, out))?;
+    let edges =
+        |quality| EdgeLayer { skeleton: project.skeleton, off_centre: &off_centre, quality };
+    files.add(&top, |out| write_project([&mesh, &skeleton, &centre, &beams], out))?;
+    files.add(&mesh, |out| write_labelled(project.surface, out))?;
+    files.add(&skeleton, |out| edges(Quality::Radius).write(out))?;
+    files.add(&centre, |out| edges(Quality::OffCentre).write(out))?;
     files.add(&beams, |out| write_parts(&part_meshes(project.document), out))
 }
 
-fn write_project(layers: &[(&str, &PathBuf)], out: &mut dyn Write) -> io::Result<()> {
+fn write_project(paths: [&Path; 4], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "<!DOCTYPE MeshLabDocument>\n<MeshLabProject>\n <MeshGroup>")?;
-    for (label, path) in layers {
+    for (Layer { label, is_shown, .. }, path) in LAYERS.iter().zip(paths) {
         let name = escaped(&path.file_name().unwrap_or_default().to_string_lossy());
-        writeln!(out, "  <MLMesh label=\"{label}\" filename=\"{name}\">")?;
+        let shown = u8::from(*is_shown);
+        writeln!(out, "  <MLMesh label=\"{label}\" filename=\"{name}\" visible=\"{shown}\">")?;
         writeln!(out, "   <MLMatrix44>\n1 0 0 0 \n0 1 0 0 \n0 0 1 0 \n0 0 0 1 \n</MLMatrix44>")?;
         writeln!(out, "  </MLMesh>")?;
     }
@@ -114,33 +133,54 @@ fn colour(off_centre: Option<f64>) -> [u8; 3] {
     std::array::from_fn(|k| (SCALE[i][k] + t * (SCALE[i + 1][k] - SCALE[i][k])).round() as u8)
 }
 
+/// What MeshLab shows and measures as the one number of each point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Quality {
+    Radius,
+    OffCentre,
+}
+
 /// Edges as MeshLab reads them; the reader of skeleton files takes them as well.
-fn write_skeleton(
-    skeleton: &Skeleton,
-    off_centre: &[Option<f64>],
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let (points, edges) = (skeleton.points.len(), skeleton.segments().count());
-    writeln!(out, "ply\nformat ascii 1.0\ncomment beamwright skeleton, mm; quality: radius;")?;
-    writeln!(
-        out,
-        "comment off_centre: from the section's centroid, in section radii; -1: unknown"
-    )?;
-    writeln!(out, "element vertex {points}")?;
-    for name in ["x", "y", "z", "quality", "off_centre"] {
-        writeln!(out, "property double {name}")?;
+struct EdgeLayer<'a> {
+    skeleton: &'a Skeleton,
+    off_centre: &'a [Option<f64>],
+    quality: Quality,
+}
+
+impl EdgeLayer<'_> {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.header(out)?;
+        for (point, off) in self.skeleton.points.iter().zip(self.off_centre) {
+            let [x, y, z] = point.position.into();
+            let [red, green, blue] = colour(*off);
+            let quality = match self.quality {
+                Quality::Radius => point.radius,
+                Quality::OffCentre => off.unwrap_or(0.0),
+            };
+            writeln!(out, "{x} {y} {z} {quality} {red} {green} {blue} 255")?;
+        }
+        self.skeleton.segments().try_for_each(|[a, b]| writeln!(out, "{a} {b}"))
     }
-    for channel in ["red", "green", "blue", "alpha"] {
-        writeln!(out, "property uchar {channel}")?;
+
+    fn header(&self, out: &mut dyn Write) -> io::Result<()> {
+        let quality = match self.quality {
+            Quality::Radius => "radius, mm",
+            Quality::OffCentre => {
+                "distance from the centroid of the section, in section radii; 0 without one"
+            }
+        };
+        writeln!(out, "ply\nformat ascii 1.0\ncomment beamwright skeleton, mm")?;
+        writeln!(out, "comment quality: {quality}")?;
+        writeln!(out, "element vertex {}", self.skeleton.points.len())?;
+        for name in ["x", "y", "z", "quality"] {
+            writeln!(out, "property double {name}")?;
+        }
+        for channel in ["red", "green", "blue", "alpha"] {
+            writeln!(out, "property uchar {channel}")?;
+        }
+        writeln!(out, "element edge {}", self.skeleton.segments().count())?;
+        writeln!(out, "property int vertex1\nproperty int vertex2\nend_header")
     }
-    writeln!(out, "element edge {edges}\nproperty int vertex1\nproperty int vertex2\nend_header")?;
-    for (point, off) in skeleton.points.iter().zip(off_centre) {
-        let [x, y, z] = point.position.into();
-        let [red, green, blue] = colour(*off);
-        let off = off.unwrap_or(-1.0);
-        writeln!(out, "{x} {y} {z} {} {off} {red} {green} {blue} 255", point.radius)?;
-    }
-    skeleton.segments().try_for_each(|[a, b]| writeln!(out, "{a} {b}"))
 }
 
 #[cfg(test)]
@@ -166,18 +206,17 @@ mod tests {
 
     #[test]
     fn layers_stand_beside_the_project() {
-        let names = targets(Path::new("out/a.b.mlp")).map(|p| p.display().to_string());
-        assert_eq!(
-            names,
-            ["out/a.b.mlp", "out/a.b.input.ply", "out/a.b.skeleton.ply", "out/a.b.beams.ply"]
-        );
+        let [project, layers @ ..] = targets(Path::new("out/a.b.mlp"));
+        assert_eq!(project, Path::new("out/a.b.mlp"));
+        let names = ["input", "skeleton", "off_centre", "beams"];
+        assert_eq!(layers, names.map(|name| PathBuf::from(format!("out/a.b.{name}.ply"))));
     }
 
     #[test]
     fn file_names_are_escaped() {
-        let path = PathBuf::from("a \"b\" & <c>.input.ply");
+        let path = Path::new("a \"b\" & <c>.input.ply");
         let mut out = Vec::new();
-        write_project(&[("mesh", &path)], &mut out).unwrap();
+        write_project([path; 4], &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert!(text.contains("filename=\"a &quot;b&quot; &amp; &lt;c&gt;.input.ply\""), "{text}");
     }
@@ -191,14 +230,19 @@ mod tests {
         assert_eq!(colour(None), GREY);
     }
 
-    #[test]
-    fn skeleton_layer_is_read_back_with_its_radii() {
-        let skeleton = bar();
+    /// The first number of each point after its position.
+    fn qualities(quality: Quality, off_centre: &[Option<f64>]) -> Vec<f64> {
         let mut out = Vec::new();
-        write_skeleton(&skeleton, &[None, Some(0.1), Some(0.6)], &mut out).unwrap();
-        let again = read_bytes(&out, Format::Ply, Unit::Mm).unwrap();
-        assert_eq!(again.branches.len(), 1);
-        assert_eq!(again.points.len(), 3);
-        assert!(again.points.iter().all(|p| p.radius == 2.0));
+        EdgeLayer { skeleton: &bar(), off_centre, quality }.write(&mut out).unwrap();
+        let graph = read_bytes(&out, Format::Ply, Unit::Mm).unwrap();
+        assert_eq!(graph.branches.len(), 1);
+        graph.points.iter().map(|p| p.radius).collect()
+    }
+
+    #[test]
+    fn edge_layers_are_read_back_with_their_quality() {
+        let off_centre = [None, Some(0.1), Some(0.6)];
+        assert_eq!(qualities(Quality::Radius, &off_centre), [2.0, 2.0, 2.0]);
+        assert_eq!(qualities(Quality::OffCentre, &off_centre), [0.0, 0.1, 0.6]);
     }
 }

@@ -12,7 +12,7 @@ use beamwright_formats::RawMesh;
 use nalgebra::Vector3;
 
 #[test]
-fn projects_of_the_samples_hold_three_layers() -> Result<(), Box<dyn Error>> {
+fn projects_of_the_samples_hold_their_layers() -> Result<(), Box<dyn Error>> {
     let temporary = tempfile::tempdir()?;
     let folder = std::env::var_os("BEAMWRIGHT_MLP_OUT")
         .map_or_else(|| temporary.path().to_owned(), PathBuf::from);
@@ -38,9 +38,9 @@ fn project(name: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
     mlp::add(&mut files, &path, &project)?;
     files.commit()?;
 
-    let [top, mesh, skeleton, beams] = targets(&path);
+    let [top, mesh, skeleton, off_centre, beams] = targets(&path);
     let text = std::fs::read_to_string(top)?;
-    assert_eq!(text.matches("<MLMesh ").count(), 3);
+    assert_eq!(text.matches("<MLMesh ").count(), 4);
     assert!(!text.contains(folder.to_str().unwrap_or("?")), "layers are named relative to it");
 
     let again = beamwright_formats::read(&mesh, &Default::default())?;
@@ -49,8 +49,10 @@ fn project(name: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
     assert_eq!(labelled.labels.sets, outcome.surface.labels.sets, "{name}: the label survives");
     assert_eq!(labelled.interfaces.len(), outcome.surface.interfaces.len());
 
-    let edges = beamwright::skeleton_file::read(&skeleton, beamwright_formats::Unit::Mm)?;
-    assert_eq!(edges.cycle_rank(), outcome.skeleton.cycle_rank());
+    for layer in [skeleton, off_centre] {
+        let edges = beamwright::skeleton_file::read(&layer, beamwright_formats::Unit::Mm)?;
+        assert_eq!(edges.cycle_rank(), outcome.skeleton.cycle_rank());
+    }
 
     let solids = beamwright_formats::read(&beams, &Default::default())?;
     let enclosed: f64 = solids.faces.iter().map(|f| under_face(&solids, f)).sum();

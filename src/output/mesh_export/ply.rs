@@ -20,13 +20,8 @@ const NON_DESIGN: [u8; 3] = [225, 40, 40];
 /// What `out` says.
 pub(in crate::output) fn write_labelled(surface: &Surface, out: &mut dyn Write) -> io::Result<()> {
     let mesh = &surface.mesh;
-    header(
-        out,
-        "surface; flags 32: non-design",
-        mesh.positions().len(),
-        mesh.triangles().len(),
-        true,
-    )?;
+    let (points, triangles) = (mesh.positions().len(), mesh.triangles().len());
+    header(out, "surface; flags 32: non-design", points, triangles, "int flags")?;
     mesh.positions().iter().try_for_each(|p| point(out, p))?;
     for (triangle, label) in mesh.triangles().iter().zip(&surface.labels.of_face) {
         let (flags, colour) = if label.is_design() { (0, DESIGN) } else { (SELECTED, NON_DESIGN) };
@@ -37,21 +32,22 @@ pub(in crate::output) fn write_labelled(surface: &Surface, out: &mut dyn Write) 
     Ok(())
 }
 
-/// Writes parts one after the other, each in its colour; the header lists their names.
+/// Writes parts one after the other, each in its colour, with its number from 1 as `quality`.
 ///
 /// # Errors
 /// What `out` says.
 pub(in crate::output) fn write_parts(parts: &[PartMesh], out: &mut dyn Write) -> io::Result<()> {
     let points = parts.iter().map(|p| p.points.len()).sum();
     let triangles = parts.iter().map(|p| p.triangles.len()).sum();
-    header(out, "beams", points, triangles, false)?;
+    header(out, "beams; quality: number of the beam", points, triangles, "float quality")?;
     for part in parts {
         part.points.iter().try_for_each(|p| point(out, p))?;
     }
     let mut first = 0;
-    for part in parts {
+    for (number, part) in (1_u32..).zip(parts) {
         for triangle in &part.triangles {
             corners(out, &triangle.map(|i| i + first))?;
+            out.write_all(&(number as f32).to_le_bytes())?;
             rgba(out, part.colour)?;
         }
         first += part.points.len() as u32;
@@ -64,15 +60,13 @@ fn header(
     what: &str,
     points: usize,
     triangles: usize,
-    flags: bool,
+    of_face: &str,
 ) -> io::Result<()> {
     writeln!(out, "ply\nformat binary_little_endian 1.0\ncomment beamwright {what}; mm")?;
     writeln!(out, "element vertex {points}")?;
     writeln!(out, "property double x\nproperty double y\nproperty double z")?;
     writeln!(out, "element face {triangles}\nproperty list uchar int vertex_indices")?;
-    if flags {
-        writeln!(out, "property int flags")?;
-    }
+    writeln!(out, "property {of_face}")?;
     for channel in ["red", "green", "blue", "alpha"] {
         writeln!(out, "property uchar {channel}")?;
     }
