@@ -78,6 +78,9 @@ class MeshLab:
 
     def turn(self) -> None:
         """Turns the view, so that nothing is seen end on."""
+        # The corner is black until the window reaches it.
+        wait_for("growing", lambda: shot()[40, 1390].any())
+        wait_for("drawing", lambda: green(shot()) > 1000)
         xdotool("mousemove", 500, 450, "mousedown", 1)
         for _ in range(12):
             xdotool("mousemove_relative", "--", -12, 9)
@@ -85,9 +88,9 @@ class MeshLab:
         xdotool("mouseup", 1)
 
     def look(self, name: str) -> Picture:
-        """The picture once it no longer changes."""
+        """The picture once there are beams in it and it no longer changes."""
         last = shot()
-        wait_for("a still picture", lambda: is_still(last))
+        wait_for("a still picture", lambda: is_still(last) and green(last) > 1000)
         self.is_alive()
         if PICTURES:
             folder = Path(PICTURES)
