@@ -8,13 +8,41 @@ import shutil
 import tempfile
 from typing import Any, Callable
 
-import beamwright_document as bd
-import beamwright_program as bp
 import FreeCAD as App
 import FreeCADGui as Gui
+from beamwright_command import JOINTS, LOFTS, PROFILES, Options, Outputs, command_line
+from beamwright_document import insert_result
+from beamwright_group import find_group, settings_of
+from beamwright_input import (
+    FACES,
+    FEM,
+    LABELS,
+    NONE,
+    REGIONS,
+    InputError,
+    Job,
+    NonDesign,
+    Source,
+    fem_constraints,
+    is_mesh,
+    prepare,
+)
+from beamwright_macro import (
+    MANY_BEAMS,
+    keep_files,
+    outputs_of,
+    preferred_program,
+    remember_program,
+    settings_for,
+    with_unit,
+)
 from beamwright_mesh import is_non_design_name
-from beamwright_result import ReportText, mark_of
+from beamwright_outcome import CANCELLED, Outcome, Progress, beam_in
+from beamwright_program import NOT_FOUND, Program, ProgramError, probe, refusal_of_input
+from beamwright_report import ReportText
+from beamwright_result import COMPOUND, PREVIEW, SOLIDS, Inserted, Result, ResultError
 from beamwright_run import Run
+from beamwright_step import mark_of
 from beamwright_view import FacePicker, Marker, extent
 from PySide import QtCore, QtGui
 
@@ -23,11 +51,11 @@ CHECKED, UNCHECKED = QtCore.Qt.CheckState.Checked, QtCore.Qt.CheckState.Unchecke
 USER = QtCore.Qt.ItemDataRole.UserRole
 
 MODES = (
-    (bd.LABELS, "By name or label in the file"),
-    (bd.FACES, "Flat faces clicked in the view"),
-    (bd.REGIONS, "Selected solids or meshes"),
-    (bd.FEM, "Faces of FEM constraints"),
-    (bd.NONE, "None"),
+    (LABELS, "By name or label in the file"),
+    (FACES, "Flat faces clicked in the view"),
+    (REGIONS, "Selected solids or meshes"),
+    (FEM, "Faces of FEM constraints"),
+    (NONE, "None"),
 )
 
 _open_panel: Any = None
@@ -53,14 +81,14 @@ class Panel:
 
     def __init__(self, doc: Any) -> None:
         self.doc = doc
-        self.program: bp.Program | None = None
+        self.program: Program | None = None
         self.run: Run | None = None
-        self.inserted: bd.Inserted | None = None
-        self.outcome: bp.Outcome | None = None
+        self.inserted: Inserted | None = None
+        self.outcome: Outcome | None = None
         self._folder = ""
-        self._job: bd.Job | None = None
-        self._outputs: bp.Outputs | None = None
-        self._source = bd.Source()
+        self._job: Job | None = None
+        self._outputs: Outputs | None = None
+        self._source = Source()
         self._left_out: list[str] = []
         self._marker = Marker()
         self.picker = FacePicker(self._show_picked)
@@ -278,7 +306,7 @@ class Panel:
 
     def _fill_meshes(self) -> None:
         selected = {o.Name for o in Gui.Selection.getSelection(self.doc.Name)}
-        objects = [o for o in self.doc.Objects if bd.is_mesh(o) and not self._is_ours(o)]
+        objects = [o for o in self.doc.Objects if is_mesh(o) and not self._is_ours(o)]
         wanted = [o for o in objects if o.Name in selected] or objects
         self.meshes.blockSignals(True)
         for obj in objects:
@@ -297,7 +325,7 @@ class Panel:
         return any(obj.Name in names for names in made)
 
     def _fill_fem(self) -> None:
-        for obj in bd.fem_constraints(self.doc):
+        for obj in fem_constraints(self.doc):
             item = QtGui.QListWidgetItem(obj.Label)
             item.setData(USER, obj.Name)
             item.setCheckState(CHECKED)
@@ -309,7 +337,7 @@ class Panel:
         return [o for o in objects if o is not None]
 
     def _look_for_program(self) -> None:
-        self.set_program(bd.find_program() or "", remember=False)
+        self.set_program(preferred_program() or "", remember=False)
 
     def set_program(self, path: str, remember: bool = True) -> bool:
         """Takes a program, if it is one; its flags decide what can be chosen."""
@@ -318,22 +346,22 @@ class Panel:
             self.program_text.setText("beamwright: not found; choose it with …")
         else:
             try:
-                self.program = bp.probe(path)
-            except bp.ProgramError as error:
+                self.program = probe(path)
+            except ProgramError as error:
                 self.program_text.setText(str(error))
         if self.program is not None:
             self.program_text.setText(f"beamwright {self.program.version_text}")
             self.program_text.setToolTip(self.program.path)
             if remember:
-                bd.remember_program(path)
+                remember_program(path)
         self._offer_choices()
         return self.program is not None
 
     def _offer_choices(self) -> None:
         rows = (
-            (self.profile, "--profile", bp.PROFILES),
-            (self.loft, "--loft", bp.LOFTS),
-            (self.joints, "--joints", bp.JOINTS),
+            (self.profile, "--profile", PROFILES),
+            (self.loft, "--loft", LOFTS),
+            (self.joints, "--joints", JOINTS),
             (self.density, "--density", ()),
             (self.deviation, "--max-deviation", ()),
             (self.strict, "--strict", ()),
@@ -358,16 +386,16 @@ class Panel:
 
     def _restore(self) -> None:
         """Starts from the settings of the last run on the same mesh."""
-        group = bd.find_group(self.doc, self.source())
+        group = find_group(self.doc, self.source())
         if group is None:
             if self.constraints.count() and not self._has_named_parts():
-                self._set_mode(bd.FEM)
+                self._set_mode(FEM)
             return
-        settings = bd.settings_of(group)
-        self._set_mode(settings.get("mode", bd.LABELS))
+        settings = settings_of(group)
+        self._set_mode(settings.get("mode", LABELS))
         self.picker.restore(settings.get("faces") or {})
         for name in settings.get("objects") or ():
-            if settings.get("mode") == bd.REGIONS and self.doc.getObject(name):
+            if settings.get("mode") == REGIONS and self.doc.getObject(name):
                 self._add_region(self.doc.getObject(name))
         for widget, key in (
             (self.density, "density"),
@@ -394,26 +422,26 @@ class Panel:
 
     # -- what was chosen -----------------------------------------------------------------------
 
-    def source(self) -> bd.Source:
+    def source(self) -> Source:
         """The mesh that is chosen."""
         if self.from_file.isChecked():
-            return bd.Source(file=self.file.text().strip())
-        return bd.Source(objects=self._checked(self.meshes))
+            return Source(file=self.file.text().strip())
+        return Source(objects=self._checked(self.meshes))
 
-    def non_design(self) -> bd.NonDesign:
+    def non_design(self) -> NonDesign:
         """What is chosen as non-design."""
         mode = self.mode.itemData(self.mode.currentIndex())
         objects: list[Any] = []
-        if mode == bd.REGIONS:
+        if mode == REGIONS:
             objects = self._regions()
-        elif mode == bd.FEM:
+        elif mode == FEM:
             objects = self._checked(self.constraints)
         faces: dict[str, list[int]] = {}
-        if mode == bd.FACES:
+        if mode == FACES:
             faces = {n: sorted(f) for n, f in self.picker.faces.items() if f}
-        return bd.NonDesign(mode, faces, objects, self.depth.value())
+        return NonDesign(mode, faces, objects, self.depth.value())
 
-    def options(self) -> bp.Options:
+    def options(self) -> Options:
         """The options that differ from the program's own defaults."""
         defaults = self.program.defaults if self.program else {}
 
@@ -422,7 +450,7 @@ class Panel:
             untouched = not widget.isEnabled() or f"{value:g}" == defaults.get(flag, "")
             return None if untouched else value
 
-        return bp.Options(
+        return Options(
             profile=_chosen(self.profile),
             loft=_chosen(self.loft),
             joints=_chosen(self.joints),
@@ -451,7 +479,7 @@ class Panel:
 
     def _mode_changed(self, *_: Any) -> None:
         self.pages.setCurrentIndex(self.mode.currentIndex())
-        picking = self.mode.itemData(self.mode.currentIndex()) == bd.FACES
+        picking = self.mode.itemData(self.mode.currentIndex()) == FACES
         if not picking:
             self.pick.setChecked(False)
             self.picker.unpaint()
@@ -474,7 +502,7 @@ class Panel:
         """Takes the selected objects as regions in place of those taken before."""
         self.regions.clear()
         for obj in Gui.Selection.getSelection(self.doc.Name):
-            if bd.is_mesh(obj) or hasattr(obj, "Shape"):
+            if is_mesh(obj) or hasattr(obj, "Shape"):
                 self._add_region(obj)
 
     def _add_region(self, obj: Any) -> None:
@@ -516,9 +544,9 @@ class Panel:
         )
         role = QtGui.QMessageBox.ButtonRole
         buttons = {
-            box.addButton("One compound", role.AcceptRole): bd.COMPOUND,
-            box.addButton("Mesh preview", role.AcceptRole): bd.PREVIEW,
-            box.addButton("All as objects", role.AcceptRole): bd.SOLIDS,
+            box.addButton("One compound", role.AcceptRole): COMPOUND,
+            box.addButton("Mesh preview", role.AcceptRole): PREVIEW,
+            box.addButton("All as objects", role.AcceptRole): SOLIDS,
             box.addButton("Cancel", role.RejectRole): "",
         }
         (box.exec_ if hasattr(box, "exec_") else box.exec)()
@@ -533,13 +561,13 @@ class Panel:
         self._clear_messages()
         self.tabs.setCurrentWidget(self.log)
         if self.program is None and not self.ask_for_program():
-            self._fail(self.program_text.text() or bp.NOT_FOUND)
+            self._fail(self.program_text.text() or NOT_FOUND)
             return
         assert self.program is not None
         self._source = self.source()
         try:
             arguments = self._prepare(self.program)
-        except (bd.InputError, OSError) as error:
+        except (InputError, OSError) as error:
             self._forget_files()
             self._fail(str(error))
             return
@@ -553,19 +581,19 @@ class Panel:
         self.cancel_button.setEnabled(True)
         self.run.start()
 
-    def _prepare(self, program: bp.Program) -> list[str]:
+    def _prepare(self, program: Program) -> list[str]:
         if self._source.file:
-            refusal = bp.refusal_of_input(program, self._source.file)
+            refusal = refusal_of_input(program, self._source.file)
             if refusal:
-                raise bd.InputError(refusal)
+                raise InputError(refusal)
         self._folder = tempfile.mkdtemp(prefix="beamwright-")
         options = self.options()
-        self._job = bd.prepare(self._source, self.non_design(), self._folder, options.unit)
+        self._job = prepare(self._source, self.non_design(), self._folder, options.unit)
         for note in self._job.notes:
             self._say(note)
-        self._outputs = bd.outputs_of(self._job, self._folder)
-        options = bd.with_unit(options, self._job.unit)
-        arguments, self._left_out = bp.command(
+        self._outputs = outputs_of(self._job, self._folder)
+        options = with_unit(options, self._job.unit)
+        arguments, self._left_out = command_line(
             program, self._job.mesh, self._outputs, options, self._job.regions
         )
         return arguments
@@ -577,11 +605,11 @@ class Panel:
             self.bar.setFormat("cancelling")
             self.run.cancel()
 
-    def _progressed(self, progress: bp.Progress) -> None:
+    def _progressed(self, progress: Progress) -> None:
         self.bar.setFormat(f"{progress.stage} %p %")
         self.bar.setValue(int(1000 * progress.fraction))
 
-    def _ended(self, outcome: bp.Outcome) -> None:
+    def _ended(self, outcome: Outcome) -> None:
         run, self.run = self.run, None
         self.outcome = outcome
         try:
@@ -601,24 +629,24 @@ class Panel:
         # A closed document is a dead object whose attributes cannot be asked.
         return any(d is self.doc or d == self.doc for d in App.listDocuments().values())
 
-    def _take_in(self, outcome: bp.Outcome) -> None:
-        style = bd.SOLIDS
-        if outcome.beams > bd.MANY_BEAMS:
+    def _take_in(self, outcome: Outcome) -> None:
+        style = SOLIDS
+        if outcome.beams > MANY_BEAMS:
             style = self.ask_style(outcome.beams)
             if not style:
-                self._fail(bp.CANCELLED)
+                self._fail(CANCELLED)
                 return
         assert self._outputs is not None and self.program is not None
         self.bar.setFormat("taking in %p %")
         self.bar.setValue(980)
         QtGui.QApplication.setOverrideCursor(QtGui.QCursor(QtCore.Qt.CursorShape.WaitCursor))
         try:
-            self.inserted = bd.insert_result(self.doc, self._result(outcome, style))
+            self.inserted = insert_result(self.doc, self._result(outcome, style))
             kept = self.keep.text().strip()
             if kept:
-                for path in bd.keep_files(self._outputs, kept):
+                for path in keep_files(self._outputs, kept):
                     self._say(f"kept {path}")
-        except (bd.ResultError, OSError) as error:
+        except (ResultError, OSError) as error:
             self._fail(str(error))
             return
         finally:
@@ -632,10 +660,10 @@ class Panel:
         self.message.setText(f"<b>{outcome.beams} beams.</b> One undo takes all of it back.")
         self.picker.unpaint()
 
-    def _result(self, outcome: bp.Outcome, style: str) -> bd.Result:
+    def _result(self, outcome: Outcome, style: str) -> Result:
         assert self._outputs is not None and self.program is not None
         options = self.options()
-        return bd.Result(
+        return Result(
             self._source,
             self._outputs,
             outcome,
@@ -645,7 +673,7 @@ class Panel:
             self.show_mesh.isChecked(),
             unit=options.unit,
             chosen=options.chosen(),
-            settings=bd.settings_for(self.non_design(), options),
+            settings=settings_for(self.non_design(), options),
         )
 
     def _forget_files(self) -> None:
@@ -674,7 +702,7 @@ class Panel:
         self.message.setText(f'<b style="color:#b00000">{_html(text)}</b>')
         App.Console.PrintError(f"Beamwright: {text}\n")
 
-    def _list_findings(self, outcome: bp.Outcome) -> None:
+    def _list_findings(self, outcome: Outcome) -> None:
         for finding in outcome.findings:
             item = QtGui.QListWidgetItem(("BREACH: " if finding.breach else "") + finding.text)
             item.setData(USER, finding.text)
@@ -703,7 +731,7 @@ class Panel:
             self._marker.show(view, finding.place, shown / 30.0)
 
     def _beam_of(self, text: str) -> Any | None:
-        number = bp.beam_in(text)
+        number = beam_in(text)
         if number is None or self.inserted is None:
             return None
         marks = {mark_of(b.Label): b for b in self.inserted.beams}

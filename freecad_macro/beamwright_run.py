@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import Any, Sequence
 
-import beamwright_program as bp
+from beamwright_outcome import Outcome, Progress, StderrReader, verdict
+from beamwright_program import Program
 from PySide import QtCore
 
 #: Milliseconds the program has to end by itself when cancelled, before it is killed.
@@ -22,10 +23,10 @@ class Run(QtCore.QObject):  # type: ignore[misc]
     said = QtCore.Signal(str)
     ended = QtCore.Signal(object)
 
-    def __init__(self, program: bp.Program, arguments: Sequence[str], parent: Any = None) -> None:
+    def __init__(self, program: Program, arguments: Sequence[str], parent: Any = None) -> None:
         super().__init__(parent)
         self._program, self._arguments = program, list(arguments)
-        self._reader = bp.StderrReader()
+        self._reader = StderrReader()
         self._stdout = b""
         self._cancelled = False
         self._process = QtCore.QProcess(self)
@@ -68,7 +69,7 @@ class Run(QtCore.QObject):  # type: ignore[misc]
 
     def _tell(self, events: Sequence[Any]) -> None:
         # Of many steps that came in one piece only the last is worth painting.
-        steps = [e for e in events if isinstance(e, bp.Progress)]
+        steps = [e for e in events if isinstance(e, Progress)]
         for line in (e for e in events if isinstance(e, str)):
             self.said.emit(line)
         if steps:
@@ -82,9 +83,9 @@ class Run(QtCore.QObject):  # type: ignore[misc]
         if crashed and not self._cancelled and not self._reader.error:
             self._reader.error = "the program was killed or crashed"
         code = -1 if crashed else code
-        self.ended.emit(bp.outcome(code, self._stdout, self._reader, self._cancelled))
+        self.ended.emit(verdict(code, self._stdout, self._reader, self._cancelled))
 
     def _failed(self, error: Any) -> None:
         if error == QtCore.QProcess.ProcessError.FailedToStart:
             text = f"cannot start {self._program.path}: {self._process.errorString()}"
-            self.ended.emit(bp.Outcome(-1, text, {}))
+            self.ended.emit(Outcome(-1, text, {}))

@@ -6,8 +6,8 @@ from __future__ import annotations
 import contextlib
 from typing import Any, Callable, Iterable, Sequence
 
-import beamwright_document as bd
 import FreeCADGui as Gui
+from beamwright_input import triangles_of
 from beamwright_mesh import FlatRegions, Point, distance_to_triangle
 from pivy import coin
 
@@ -117,7 +117,7 @@ class FacePicker:
 
     def _regions_of(self, name: str) -> FlatRegions:
         if name not in self._regions:
-            self._regions[name] = FlatRegions(bd.triangles_of(self._objects[name]))
+            self._regions[name] = FlatRegions(triangles_of(self._objects[name]))
         return self._regions[name]
 
     def _clicked(self, node: Any) -> None:
