@@ -13,7 +13,19 @@ from typing import Sequence
 from beamwright_program import Program
 
 #: What the program offers when its help does not list the choices.
-PROFILES = ("auto", "round", "tube", "rectangle", "box", "ellipse", "freeform", "catalogue")
+PROFILES = (
+    "auto",
+    "round",
+    "tube",
+    "rectangle",
+    "box",
+    "ellipse",
+    "i",
+    "c",
+    "l",
+    "freeform",
+    "catalogue",
+)
 
 LOFTS = ("constant", "taper", "multi")
 
@@ -84,6 +96,11 @@ class Outputs:
         return self.path(".skeleton.json")
 
     @property
+    def sections(self) -> str:
+        """The section at each skeletal point; only where the program can write them."""
+        return self.path(".sections.json")
+
+    @property
     def report(self) -> str:
         """The report; only where the program can write one."""
         return self.path(".report.html")
@@ -120,7 +137,11 @@ def command_line(
             arguments += [flag] if value is None else [flag, value]
         else:
             left_out.append(flag)
-    for flag, path in (("--report", outputs.report), ("--export", outputs.project)):
+    for flag, path in (
+        ("--sections", outputs.sections),
+        ("--report", outputs.report),
+        ("--export", outputs.project),
+    ):
         if program.knows(flag):
             arguments += [flag, path]
     for region in regions:

@@ -46,7 +46,7 @@ def insert_result(doc: Any, result: Result) -> Inserted:
 def _insert(doc: Any, result: Result, before: set[str]) -> Inserted:
     notes: list[str] = []
     rows = read_cut_list(result.outputs.cut_list)
-    skeleton = read_skeleton(result.outputs.skeleton)
+    skeleton = read_skeleton(result.outputs.skeleton, result.outputs.sections)
     top, named = insert_beams(doc, result)
     beams = [o for name, o in named if mark_of(name)]
     old = find_group(doc, result.source)

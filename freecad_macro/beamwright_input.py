@@ -83,7 +83,12 @@ class Job:
     stem: str
     regions: list[str] = field(default_factory=list)
     unit: str = ""
+    is_temporary: bool = True
     notes: list[str] = field(default_factory=list)
+
+    def in_words(self, message: str) -> str:
+        """A message of the program, with the name of the mesh for a file the user never saw."""
+        return message.replace(self.mesh, Path(self.mesh).stem) if self.is_temporary else message
 
 
 def is_mesh(obj: Any) -> bool:
@@ -138,7 +143,7 @@ def prepare(source: Source, non_design: NonDesign, folder: str, unit: str = "") 
     stem = file_stem(source.label)
     job = Job(mesh=str(Path(folder) / (stem + ".ply")), stem=stem)
     if source.file and non_design.mode in (LABELS, REGIONS):
-        job.mesh, job.unit = source.file, unit
+        job.mesh, job.unit, job.is_temporary = source.file, unit, False
     if non_design.mode == REGIONS:
         parts = _write_regions(non_design.objects, folder, job)
         if source.file and parts.facets:

@@ -84,7 +84,7 @@ def reconstruct(
             on_event(f"beamwright {found.version_text} has no {', '.join(left_out)}; left out")
         outcome = run_to_end(found, arguments, on_event)
         if not outcome.ok:
-            raise ProgramError(outcome.message)
+            raise ProgramError(job.in_words(outcome.message))
         if not style:
             style = SOLIDS if outcome.beams <= MANY_BEAMS else COMPOUND
         result = Result(

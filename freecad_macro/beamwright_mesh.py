@@ -14,7 +14,7 @@ import math
 import struct
 from collections import defaultdict
 from dataclasses import dataclass, field
-from typing import Iterable, Sequence, Tuple
+from typing import Callable, Iterable, Sequence, Tuple
 
 Point = Tuple[float, float, float]
 Facet = Tuple[int, int, int]
@@ -122,9 +122,14 @@ class FlatRegions:
             for u, v in ((a, b), (b, c), (c, a)):
                 self._of_edge[(u, v) if u < v else (v, u)].append(i)
 
-    def around(self, facet: int) -> set[int]:
-        """Facets connected with ``facet`` that lie in its plane."""
+    def around(self, facet: int, marked: set[int] | None = None) -> set[int]:
+        """Facets connected with ``facet`` that lie in its plane.
+
+        * ``marked``: the region ends where the box about these facets ends.  A strut flush with
+          the side of a plate lies in the same plane, but not between the plate's other sides.
+        """
         mesh = self.mesh
+        is_within = self._box_of(marked) if marked else lambda _: True
         normal = mesh.normal(facet)
         height = dot(normal, mesh.points[mesh.facets[facet][0]])
         region, front = {facet}, [facet]
@@ -132,10 +137,24 @@ class FlatRegions:
             a, b, c = mesh.facets[front.pop()]
             for u, v in ((a, b), (b, c), (c, a)):
                 for other in self._of_edge[(u, v) if u < v else (v, u)]:
-                    if other not in region and self._is_in_plane(other, normal, height):
+                    if (
+                        other not in region
+                        and self._is_in_plane(other, normal, height)
+                        and is_within(other)
+                    ):
                         region.add(other)
                         front.append(other)
         return region
+
+    def _box_of(self, marked: set[int]) -> Callable[[int], bool]:
+        """Whether a facet lies in the box about others."""
+        mesh = self.mesh
+        corners = [mesh.points[p] for f in marked for p in mesh.facets[f]]
+        low = [min(c[k] for c in corners) - self._offset for k in range(3)]
+        high = [max(c[k] for c in corners) + self._offset for k in range(3)]
+        return lambda facet: all(
+            low[k] <= mesh.points[p][k] <= high[k] for p in mesh.facets[facet] for k in range(3)
+        )
 
     def _is_in_plane(self, facet: int, normal: Point, height: float) -> bool:
         mesh = self.mesh

@@ -7,8 +7,10 @@ Lengths are in mm.
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
-from typing import Sequence, Tuple
+from pathlib import Path
+from typing import Any, Sequence, Tuple
 
 Point = Tuple[float, float, float]
 Colour = Tuple[float, float, float]
@@ -54,28 +56,50 @@ class Skeleton:
         ]
 
 
-def read_skeleton(path: str) -> Skeleton:
-    """Reads ``beamwright-skeleton`` JSON.  Raises ``ValueError`` if it is something else."""
-    with open(path, encoding="utf-8") as file:
-        root = json.load(file)
-    if not isinstance(root, dict) or root.get("format") != "beamwright-skeleton":
-        raise ValueError(f"{path} is no beamwright skeleton")
+def read_skeleton(path: str, sections: str = "") -> Skeleton:
+    """Reads the skeleton of a run, and how well it is centred from the run's sections.
+
+    * ``sections``: file with the section at each point; "" or missing: off-centre is not known
+
+    Raises ``ValueError`` if a file is something else.
+    """
+    root = _read(path, "beamwright-skeleton")
+    centroids = _centroids(sections)
     number: dict[int, int] = {}
     points: list[SkeletalPoint] = []
     for entry in root["points"]:
         number[int(entry["id"])] = len(points)
-        x, y, z = (float(c) for c in entry["position"])
-        off_centre = entry.get("off_centre")
-        points.append(
-            SkeletalPoint(
-                (x, y, z),
-                str(entry.get("kind", "branch")),
-                float(entry.get("radius", 0.0)),
-                None if off_centre is None else float(off_centre),
-            )
-        )
+        position = _point(entry["position"])
+        radius = float(entry.get("radius", 0.0))
+        centroid = centroids.get(int(entry["id"]))
+        off_centre = None
+        if centroid is not None and radius > 0.0:
+            off_centre = math.dist(position, centroid) / radius
+        kind = str(entry.get("kind", "branch"))
+        points.append(SkeletalPoint(position, kind, radius, off_centre))
     branches = [[number[int(i)] for i in entry["points"]] for entry in root["branches"]]
     return Skeleton(points, branches)
+
+
+def _read(path: str, format_name: str) -> dict[str, Any]:
+    with open(path, encoding="utf-8") as file:
+        root = json.load(file)
+    if not isinstance(root, dict) or root.get("format") != format_name:
+        raise ValueError(f"{path} is no {format_name}")
+    return root
+
+
+def _centroids(path: str) -> dict[int, Point]:
+    """Centroid of the section at each skeletal point that has one."""
+    if not path or not Path(path).is_file():
+        return {}
+    sections = _read(path, "beamwright-sections")["sections"]
+    return {int(s["point"]): _point(s["centroid"]) for s in sections}
+
+
+def _point(numbers: Sequence[float]) -> Point:
+    x, y, z = numbers
+    return (float(x), float(y), float(z))
 
 
 #: Off-centre by this many section radii, and more, is shown in the last colour.

@@ -13,7 +13,9 @@ from pivy import coin
 
 
 class FacePicker:
-    """Clicks on flat regions of meshes mark them red; Shift+click takes them away again.
+    """Clicks on flat regions of meshes mark them red.
+
+    Shift+click takes them away again; Ctrl+click goes no farther than what is marked reaches.
 
     ``faces`` holds the marked facets by the internal name of their mesh object.
     """
@@ -87,14 +89,18 @@ class FacePicker:
             except (RuntimeError, ReferenceError, AttributeError):
                 continue  # the object has been deleted
 
-    def pick(self, place: Point, take_away: bool = False) -> bool:
-        """Marks the flat region at a place in the document, mm; False if no mesh is there."""
+    def pick(self, place: Point, take_away: bool = False, within: bool = False) -> bool:
+        """Marks the flat region at a place in the document, mm; False if no mesh is there.
+
+        * ``take_away``: takes the marks away instead
+        * ``within``: the region ends where what is marked already ends
+        """
         found = self._mesh_at(place)
         if found is None:
             return False
         name, facet = found
-        region = self._regions_of(name).around(facet)
         marked = self.faces.setdefault(name, set())
+        region = self._regions_of(name).around(facet, marked if within else None)
         if take_away:
             marked -= region
         else:
@@ -130,7 +136,8 @@ class FacePicker:
         # Otherwise FreeCAD would select the mesh and paint all of it green.
         node.setHandled()
         if event.getState() == coin.SoMouseButtonEvent.DOWN:
-            self.pick((info["x"], info["y"], info["z"]), bool(event.wasShiftDown()))
+            place = (info["x"], info["y"], info["z"])
+            self.pick(place, bool(event.wasShiftDown()), bool(event.wasCtrlDown()))
 
     def _of_info(self, info: dict[str, Any]) -> str | None:
         parts = [str(info.get("Object", "")), *str(info.get("Component", "")).split(".")]
