@@ -1,10 +1,12 @@
 //! Meshes made in code, with known axes, radii and counts.
 
-#![allow(dead_code, reason = "each test file uses the part it needs")]
+#![allow(dead_code, unreachable_pub, reason = "each test file uses the part it needs")]
 
+pub mod curves;
 pub mod families;
 pub mod frame;
 pub mod march_cubes;
+pub mod program;
 
 use beamwright::mesh::{LabelParams, Surface, prepare};
 use beamwright_formats::{Polygons, RawMesh};
