@@ -143,9 +143,15 @@ pub struct BeamSection {
     pub ends: [Moments; 2],
 }
 
-/// Departure of the area from its straight line that halves the weight of a section. Fillets add
-/// tenths, the waves of voxel surfaces some hundredths.
-const SWELLING: f64 = 0.08;
+/// Departure of the area from its straight line that halves the weight of a section: some times
+/// the median departure, within bounds. Fillets add tenths to a clean strut, the steps of voxel
+/// surfaces some hundredths to all of one.
+const SPREAD: f64 = 3.0;
+const SWELLING: [f64; 2] = [0.02, 0.12];
+
+/// Part of the length by which a section may lie beyond the ends of its beam; farther, it belongs
+/// to the neighbour.
+const BEYOND: f64 = 0.05;
 
 impl BeamSection {
     /// Gathers the sections between two nodes.
@@ -169,6 +175,10 @@ impl BeamSection {
             })
             .filter(|s| s.moments.area > 0.0)
             .collect();
+        let own = |s: &BeamStation| (-BEYOND..=1.0 + BEYOND).contains(&s.at);
+        if stations.iter().any(own) {
+            stations.retain(own);
+        }
         weigh(&mut stations);
         let mean = mean(&stations);
         let ends = if stations.is_empty() { [mean; 2] } else { ends(&stations, &mean) };
@@ -181,27 +191,53 @@ impl BeamSection {
     }
 }
 
-/// Iteratively reweighted straight line through the areas.
+/// Iteratively reweighted straight lines through the areas and the largest second moments.
 fn weigh(stations: &mut [BeamStation]) {
     if stations.len() < 4 {
         return;
     }
-    // Begin from the median: one swollen end must not tilt the first line.
-    let mut areas: Vec<f64> = stations.iter().map(|s| s.moments.area).collect();
-    areas.sort_by(f64::total_cmp);
-    let median = areas[areas.len() / 2];
-    let weight = |area: f64, expected: f64| {
-        let off = (area / expected - 1.0) / SWELLING;
-        1.0 / (1.0 + off * off)
+    // Begin from the medians: one swollen end must not tilt the first lines.
+    let sizes = [size_of_area, size_of_moment];
+    let medians = sizes.map(|size| median(stations.iter().map(|s| size(&s.moments)).collect()));
+    let off = |s: &BeamStation, expected: [f64; 2]| {
+        let part = |k: usize| (sizes[k](&s.moments) / expected[k] - 1.0).abs();
+        part(0).max(part(1))
     };
-    stations.iter_mut().for_each(|s| s.weight = weight(s.moments.area, median).max(0.05));
+    let mut offs: Vec<f64> = stations.iter().map(|s| off(s, medians)).collect();
+    weigh_by(stations, &offs, 0.05);
     for _ in 0..4 {
-        let [at_start, at_end] = line(stations, |m| m.area);
-        for s in stations.iter_mut() {
-            let expected = (at_start + (at_end - at_start) * s.at).max(0.1 * median);
-            s.weight = weight(s.moments.area, expected);
-        }
+        let lines = sizes.map(|size| line(stations, size));
+        let expected = |s: &BeamStation| {
+            [0, 1].map(|k| {
+                let [at_start, at_end] = lines[k];
+                (at_start + (at_end - at_start) * s.at).max(0.1 * medians[k])
+            })
+        };
+        offs = stations.iter().map(|s| off(s, expected(s))).collect();
+        weigh_by(stations, &offs, 0.0);
     }
+}
+
+fn size_of_area(m: &Moments) -> f64 {
+    m.area
+}
+
+/// √I_1, which grows with a section as its area does.
+fn size_of_moment(m: &Moments) -> f64 {
+    m.principal().0.max(0.0).sqrt()
+}
+
+fn weigh_by(stations: &mut [BeamStation], offs: &[f64], least: f64) {
+    let [low, high] = SWELLING;
+    let scale = (SPREAD * median(offs.to_vec())).clamp(low, high);
+    for (s, off) in stations.iter_mut().zip(offs) {
+        s.weight = (1.0 / (1.0 + (off / scale).powi(2))).max(least);
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 fn mean(stations: &[BeamStation]) -> Moments {
@@ -211,7 +247,7 @@ fn mean(stations: &[BeamStation]) -> Moments {
 
 /// End values by straight lines; never below a tenth of the mean.
 fn ends(stations: &[BeamStation], mean: &Moments) -> [Moments; 2] {
-    let area = line(stations, |m| m.area);
+    let area = line(stations, size_of_area);
     let yy = line(stations, |m| m.i_yy);
     let zz = line(stations, |m| m.i_zz);
     let yz = line(stations, |m| m.i_yz);

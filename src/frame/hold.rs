@@ -1,10 +1,9 @@
 //! Keeps nodes and axes in the material.
 //!
 //! The axes of beams that meet at an acute angle, or bend before they meet, cross far from their
-//! junction: beyond an interface section, or outside of the object. A node that left is held more
+//! junction: beyond an interface section, or outside of the object; where a branch bends little, its
+//! corner slides along it. A node that left is held more
 //! firmly to its place in the skeleton, which lies inside, until it stays.
-
-use nalgebra::{Point3, Vector3};
 
 use super::NodeKind;
 use super::pieces::{Making, Piece};
@@ -15,7 +14,7 @@ use crate::mesh::TriangleTree;
 const FARTHEST_SLIDE: f64 = 0.35;
 
 /// Factor by which a node that left is held more firmly.
-const FIRMER: f64 = 10.0;
+const FIRMER: f64 = 3.0;
 
 /// Hold at which a node stays where the skeleton has it.
 const FIRMEST: f64 = 1e2;
@@ -48,19 +47,12 @@ fn has_left(making: &Making<'_>, node: usize, tree: &TriangleTree) -> bool {
     match making.nodes[node].kind {
         NodeKind::Interface => (at - anchor.place).norm() > FARTHEST_SLIDE * anchor.radius,
         NodeKind::End => false,
+        NodeKind::Bend if (at - anchor.place).norm() > anchor.radius => true,
         NodeKind::Junction | NodeKind::Bend => {
-            !tree.contains(&at) || is_beyond_an_interface(making, node, &at)
+            let mut own = making.pieces.iter().filter(|p| p.ends.contains(&node));
+            !tree.contains(&at) || own.any(|p| making.is_beyond_an_interface(node, p))
         }
     }
-}
-
-/// Whether a node is beyond the plane of an interface section that a piece of its own ends in.
-fn is_beyond_an_interface(making: &Making<'_>, node: usize, at: &Point3<f64>) -> bool {
-    making.pieces.iter().filter(|p| p.ends.contains(&node)).any(|piece| {
-        piece.ends.iter().map(|&other| &making.anchors[other]).any(|anchor| {
-            anchor.normal.is_some_and(|n| (at - anchor.place).dot(&Vector3::from(*n)) < 0.0)
-        })
-    })
 }
 
 /// Whether the axis of a piece leaves the material between its ends.

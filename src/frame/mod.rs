@@ -12,13 +12,15 @@
 //! | 2 | bent branches broken into straight pieces | `straighten`, `pieces` |
 //! | 3 | all nodes moved so that the axes run in the middle of the material | `solve` |
 //! | 4 | nodes that left the material held to the skeleton | `hold` |
-//! | 5 | nodes closer than a section radius made one, pieces that still bend broken | `pieces`, `deviation` |
+//! | 5 | nodes closer than a section radius made one, pieces that still bend broken | `pieces`, `bend` |
 //! | 6 | members that run through a junction kept in one piece, if wanted | `continuous` |
 //! | 7 | mean and end values of the sections along each beam | [`beam_section`], `measured` |
 //! | 8 | a profile for every beam | [`profiles`] |
 
 pub mod beam_section;
+mod bend;
 mod continuous;
+mod depth;
 mod deviation;
 mod hold;
 mod measured;
@@ -38,7 +40,7 @@ pub use params::{FrameParams, ProfileParams};
 pub use profiles::match_profiles;
 pub use section_at::{Section, sections};
 pub use shape::{BeamShape, Loft};
-pub use volume::{FrameVolumes, volumes};
+pub use volume::{BeamVolumes, volumes};
 
 use nalgebra::{Point3, Unit, Vector3};
 

@@ -6,7 +6,7 @@ use super::params::FrameParams;
 use super::pieces::{Making, Piece};
 use super::section_at::Section;
 use super::shape::BeamShape;
-use super::{Beam, Frame, NodeId, Passage, continuous, deviation, direction, hold};
+use super::{Beam, Frame, NodeId, Passage, bend, continuous, deviation, direction, hold};
 use crate::finding::Finding;
 use crate::mesh::Surface;
 use crate::skeleton::Skeleton;
@@ -20,9 +20,9 @@ pub struct Normalized {
     pub findings: Vec<Finding>,
 }
 
-/// Times nodes are held, pieces broken and nodes merged at most. A branch is halved no more often
-/// than it has points, and no case has needed more than a dozen.
-const MOST_ROUNDS: usize = 40;
+/// Times nodes are held, pieces broken and nodes merged at most. A node is at its firmest after
+/// thirteen, and a branch is halved no more often than it has points.
+const MOST_ROUNDS: usize = 60;
 
 /// Makes straight beams of the branches of a skeleton.
 ///
@@ -58,9 +58,9 @@ fn settle(
 ) {
     for _ in 0..MOST_ROUNDS {
         making.solve();
-        let again = hold::hold_nodes_inside(making, &surface.tree)
-            || making.merge_near_nodes(findings)
-            || deviation::split_bent(making, params);
+        let again = making.merge_near_nodes(findings)
+            || hold::hold_nodes_inside(making, &surface.tree)
+            || bend::split_bent(making, params);
         if !again {
             return;
         }

@@ -114,7 +114,11 @@ impl<'a> Making<'a> {
             self.sections[p as usize].as_ref().map_or(own, |s| s.radius().min(1.5 * own))
         };
         let sum: f64 = piece.points.iter().map(of_point).sum();
-        if piece.points.is_empty() { 0.0 } else { sum / piece.points.len() as f64 }
+        if piece.points.is_empty() {
+            self.branch_radius(piece)
+        } else {
+            sum / piece.points.len() as f64
+        }
     }
 
     /// Mean radius of the branch of a piece, mm.
@@ -150,10 +154,11 @@ impl<'a> Making<'a> {
             .stations
             .iter()
             .filter_map(|station| {
-                let centroid = self.sections[station.point as usize].as_ref()?.centroid;
+                let found = self.sections[station.point as usize].as_ref()?;
                 // Squared: a section swollen by half has a tenth of the pull of a clean one.
                 let weight = station.weight * station.weight * station.moments.area * share;
-                Some(Pull { ends: piece.ends, centroid, weight })
+                let metric = found.depths().metric();
+                Some(Pull { ends: piece.ends, centroid: found.centroid, weight, metric })
             })
             .collect()
     }
@@ -162,10 +167,9 @@ impl<'a> Making<'a> {
     pub(super) fn merge_near_nodes(&mut self, findings: &mut Vec<Finding>) -> bool {
         let before = findings.len();
         while let Some(short) = self.pieces.iter().position(|piece| {
-            let [a, b] = self.axis(piece);
             piece.ends[0] != piece.ends[1]
-                && (a - b).norm() < self.radius(piece)
-                && !piece.ends.iter().all(|&n| self.nodes[n].kind == NodeKind::Interface)
+                && !piece.ends.iter().all(|&n| self.is_interface(n))
+                && (self.is_shorter_than_its_radius(piece) || self.is_stub_beyond(piece))
         }) {
             let [a, b] = self.pieces.remove(short).ends;
             let (kept, gone) = if self.is_interface(b) { (b, a) } else { (a, b) };
@@ -187,6 +191,28 @@ impl<'a> Making<'a> {
         }
         self.drop_unused_nodes();
         findings.len() > before
+    }
+
+    fn is_shorter_than_its_radius(&self, piece: &Piece) -> bool {
+        let [a, b] = self.axis(piece);
+        (a - b).norm() < self.radius(piece)
+    }
+
+    /// Whether a piece is a short stub at an interface section, and the axes that meet at its
+    /// other end meet beyond that section: they leave the section each by itself.
+    fn is_stub_beyond(&self, piece: &Piece) -> bool {
+        let [a, b] = piece.ends.map(|n| self.anchors[n].place);
+        (a - b).norm() < SHORTEST_PIECE * self.radius(piece)
+            && piece.ends.iter().any(|&n| self.is_beyond_an_interface(n, piece))
+    }
+
+    /// Whether a node lies beyond the plane of an interface section that a piece of it ends in.
+    pub(super) fn is_beyond_an_interface(&self, node: usize, piece: &Piece) -> bool {
+        let at = self.nodes[node].position;
+        piece.ends.iter().filter(|n| **n != node).any(|&other| {
+            let anchor = &self.anchors[other];
+            anchor.normal.is_some_and(|n| (at - anchor.place).dot(&n) < 0.0)
+        })
     }
 
     pub(super) fn is_interface(&self, node: usize) -> bool {

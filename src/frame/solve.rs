@@ -4,10 +4,11 @@
 //! every node is held, faintly at first, where the skeleton has it:
 //!
 //! ```text
-//!   Σ w |(I − d dᵀ)((1 − t) a + t b − c)|²  +  Σ hold |x − x₀|²  →  min
+//!   Σ w |(I − d dᵀ)((1 − t) a + t b − c)|²_M  +  Σ hold |x − x₀|²  →  min
 //! ```
 //!
-//! with d the direction of the beam and w the volume the centroid stands for. Nodes of interface
+//! with d the direction of the beam, w the volume the centroid stands for and M what an offset
+//! weighs by its direction, more across the thin side of a section. Nodes of interface
 //! sections may slide in their plane only; a node that a through-going member passes is tied to its
 //! axis. The directions are taken anew after each solution. The normal equations are sparse and
 //! positive definite: conjugate gradients.
@@ -22,6 +23,9 @@ pub(crate) struct Pull {
     pub(crate) centroid: Point3<f64>,
     /// Volume it stands for, mm³.
     pub(crate) weight: f64,
+    /// Weight of an offset by its direction, against that of a round section: more across the
+    /// thin side of a flat one, where the beam would stick out of the material first.
+    pub(crate) metric: Matrix3<f64>,
 }
 
 /// Where a node is held.
@@ -125,7 +129,8 @@ impl System {
 
     fn add_pull(&mut self, nodes: &[Point3<f64>], pull: &Pull) {
         let [a, b] = pull.ends;
-        let Some(across) = across(&nodes[a], &nodes[b], pull.weight) else { return };
+        let Some(free) = across(&nodes[a], &nodes[b], 1.0) else { return };
+        let across = free * pull.metric * free * pull.weight;
         let t = part(&pull.centroid, &nodes[a], &nodes[b]);
         let off = across * (pull.centroid - (nodes[a] + (nodes[b] - nodes[a]) * t));
         for (n, share) in [(a, 1.0 - t), (b, t)] {
@@ -230,6 +235,7 @@ mod tests {
                     centroid: truth[ends[0]]
                         + (truth[ends[1]] - truth[ends[0]]) * (f64::from(k) / 10.0),
                     weight: 2.0,
+                    metric: Matrix3::identity(),
                 })
             })
             .collect();
@@ -251,8 +257,12 @@ mod tests {
     fn a_tied_node_lies_on_the_axis_of_the_member_that_passes_it() {
         let mut nodes = [[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [11.0, 0.7, 0.2], [11.0, 9.0, 0.0]]
             .map(Point3::from);
-        let pull =
-            |ends, x: f64, y: f64| Pull { ends, centroid: Point3::new(x, y, 0.0), weight: 1.0 };
+        let pull = |ends, x: f64, y: f64| Pull {
+            ends,
+            centroid: Point3::new(x, y, 0.0),
+            weight: 1.0,
+            metric: Matrix3::identity(),
+        };
         let pulls = [
             pull([0, 1], 4.0, 0.1),
             pull([0, 1], 16.0, 0.1),

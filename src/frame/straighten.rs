@@ -5,7 +5,7 @@
 //! Pieces too short to be a beam are then given to their neighbours: next to a junction a branch
 //! turns into it, which is no bend of the beam.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// Indices at which a chain is broken, its first and last point included.
 ///
@@ -68,10 +68,19 @@ fn split(chain: &[Point3<f64>], from: usize, to: usize, tolerance: f64, kept: &m
 
 /// Distance of a point from a segment, mm.
 pub(crate) fn distance_to_segment(p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
+    offset_from_segment(p, a, b).norm()
+}
+
+/// From a point to the nearest point of a segment, mm.
+pub(crate) fn offset_from_segment(
+    p: &Point3<f64>,
+    a: &Point3<f64>,
+    b: &Point3<f64>,
+) -> Vector3<f64> {
     let along = b - a;
     let squared = along.norm_squared();
     let t = if squared > 0.0 { ((p - a).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    (a + along * t - p).norm()
+    a + along * t - p
 }
 
 #[cfg(test)]

@@ -17,15 +17,23 @@ use super::{Beam, BeamShape, Frame};
 use crate::mesh::TriangleTree;
 use crate::section::properties::{Contours, signed_area};
 
-/// Volumes of a frame, mm³.
+/// Volumes of one beam from node to node, mm³.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FrameVolumes {
-    /// Sum over the beams, node to node; overlaps at joints counted for every beam.
-    pub sum: f64,
-    /// All beams together; overlaps at joints counted once.
-    pub together: f64,
-    /// What of that lies outside of the part.
+pub struct BeamVolumes {
+    /// Its own.
+    pub alone: f64,
+    /// Its share of the space all beams fill: what c beams overlap in counts 1/c for each.
+    pub share: f64,
+    /// What of its share lies outside of the part.
     pub outside: f64,
+}
+
+impl std::ops::AddAssign for BeamVolumes {
+    fn add_assign(&mut self, other: Self) {
+        self.alone += other.alone;
+        self.share += other.share;
+        self.outside += other.outside;
+    }
 }
 
 /// Samples over the whole frame, and at least for each beam.
@@ -39,19 +47,16 @@ const CORNERS: usize = 24;
 /// "The unreasonable effectiveness of quasirandom sequences", 2018).
 const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
 
-/// Measures the beams of a frame against the part they stand for.
-pub fn volumes(frame: &Frame, part: &TriangleTree) -> FrameVolumes {
+/// Measures the beams of a frame, in order, against the part they stand for.
+pub fn volumes(frame: &Frame, part: &TriangleTree) -> Vec<BeamVolumes> {
     let solids: Vec<Solid> = frame.beams.iter().map(|beam| Solid::new(beam, frame)).collect();
     let count = (SAMPLES / solids.len().max(1)).max(LEAST_SAMPLES);
-    solids.iter().fold(FrameVolumes::default(), |sum, solid| {
-        let [together, outside] = solid.shares(&solids, part, count);
-        let volume = solid.volume();
-        FrameVolumes {
-            sum: sum.sum + volume,
-            together: sum.together + volume * together,
-            outside: sum.outside + volume * outside,
-        }
-    })
+    let measure = |solid: &Solid| {
+        let [share, outside] = solid.shares(&solids, part, count);
+        let alone = solid.volume();
+        BeamVolumes { alone, share: alone * share, outside: alone * outside }
+    };
+    solids.iter().map(measure).collect()
 }
 
 /// A beam as polygons along its axis.
@@ -218,11 +223,12 @@ mod tests {
     fn crossing_bars_are_counted_once_where_they_overlap() {
         let cross =
             frame(&[[[-30.0, 0.0, 0.0], [30.0, 0.0, 0.0]], [[0.0, -30.0, 0.0], [0.0, 30.0, 0.0]]]);
-        let found = volumes(&cross, &TriangleTree::new(Vec::new()));
+        let mut found = BeamVolumes::default();
+        volumes(&cross, &TriangleTree::new(Vec::new())).into_iter().for_each(|v| found += v);
         let sum = 2.0 * std::f64::consts::PI * 25.0 * 60.0;
         let exact = sum - 16.0 / 3.0 * 125.0;
-        assert!((found.sum / sum - 1.0).abs() < 1e-3, "{found:?}");
-        assert!((found.together / exact - 1.0).abs() < 1e-2, "{found:?} for {exact}");
-        assert!((found.outside / found.together - 1.0).abs() < 1e-9, "{found:?}");
+        assert!((found.alone / sum - 1.0).abs() < 1e-3, "{found:?}");
+        assert!((found.share / exact - 1.0).abs() < 1e-2, "{found:?} for {exact}");
+        assert!((found.outside / found.share - 1.0).abs() < 1e-9, "{found:?}");
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::assembly::mark;
-use crate::frame::{Beam, BeamAxes, Frame, Moments};
+use crate::frame::{Beam, BeamAxes, BeamVolumes, Frame, Moments};
 use crate::section::MatchTarget;
 use crate::section::matching::MatchErrors;
 
@@ -44,6 +44,9 @@ pub struct BeamRow {
     pub j: f64,
     /// Angle from the strong axis of the section to axis y of the profile.
     pub roll: f64,
+    /// Part 0..1 of its volume that sticks out of the part, if that was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outside: Option<f64>,
     /// Errors of the profile, its value over the measured one less 1.
     pub errors: Option<ErrorRow>,
 }
@@ -118,6 +121,15 @@ pub fn rows(frame: &Frame) -> Vec<BeamRow> {
     frame.beams.iter().enumerate().map(|(i, beam)| row(i, beam, frame)).collect()
 }
 
+/// All beams of a frame, and how much of each sticks out of the part.
+pub fn rows_with_volumes(frame: &Frame, volumes: &[BeamVolumes]) -> Vec<BeamRow> {
+    let mut rows = rows(frame);
+    for (row, v) in rows.iter_mut().zip(volumes) {
+        row.outside = (v.share > 0.0).then(|| v.outside / v.share);
+    }
+    rows
+}
+
 fn row(index: usize, beam: &Beam, frame: &Frame) -> BeamRow {
     let [start, end] = frame.axis(beam);
     let shape = &beam.shape;
@@ -140,6 +152,7 @@ fn row(index: usize, beam: &Beam, frame: &Frame) -> BeamRow {
         i_z: shape.properties.i_yy,
         j: shape.properties.j,
         roll: shape.roll,
+        outside: None,
         errors: shape.errors.as_ref().map(ErrorRow::from),
     }
 }

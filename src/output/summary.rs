@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::beam_table::{self, BeamRow};
 use crate::finding::Finding;
-use crate::frame::{self, Frame};
+use crate::frame::{self, BeamVolumes, Frame};
 use crate::mesh::{InterfaceKind, InterfaceSection, Label, MeshReport, Surface};
 use crate::skeleton::verify::Homotopy;
 use crate::skeleton::{PointKind, Skeleton};
@@ -171,15 +171,17 @@ impl Summary {
     /// Adds the frame.
     pub fn with_frame(mut self, surface: &Surface, frame: &Frame) -> Self {
         let volumes = frame::volumes(frame, &surface.tree);
+        let mut all = BeamVolumes::default();
+        volumes.iter().for_each(|v| all += *v);
         self.frame = Some(FrameSummary {
             nodes: frame.nodes.len(),
             beams: frame.beams.len(),
             length: frame.beams.iter().map(|b| b.length).sum(),
-            volume: volumes.sum,
-            volume_together: volumes.together,
-            volume_outside: volumes.outside,
+            volume: all.alone,
+            volume_together: all.share,
+            volume_outside: all.outside,
             design_volume: surface.design_volume(),
-            table: beam_table::rows(frame),
+            table: beam_table::rows_with_volumes(frame, &volumes),
         });
         self
     }

@@ -1,0 +1,124 @@
+//! Breaks pieces that bend, where that is worth a node.
+//!
+//! The centroids along a piece are followed by a chain of straight parts with its corners in some
+//! of them. Of all chains the one is taken that costs least:
+//!
+//! ```text
+//!   cost = Σ_centroids (offset in half-depths)² · (length it stands for, in radii)  +  price · corners
+//! ```
+//!
+//! A branch that bends sharply gets its corner at the bend; a bow gets corners along it. The least
+//! is found exactly, from every chain to the next centroid on (dynamic programming, Bellman 1961).
+
+use nalgebra::Point3;
+
+use super::NodeKind;
+use super::depth::Depths;
+use super::deviation::worst;
+use super::params::FrameParams;
+use super::pieces::{Making, Piece};
+use super::straighten::offset_from_segment;
+
+/// Price of a corner, in squares of the wanted deviation times a length of one radius. A straight
+/// voxel strut of 20 radii costs 0.2 of the 0.5 at the default; an arm of 8 radii whose end is bent
+/// away by one radius 2.7.
+const PRICE: f64 = 2.0;
+
+/// No part is shorter than this many radii: as long as half its width, like the nodes that are
+/// made one.
+const SHORTEST_PART: f64 = 1.0;
+
+/// The same towards a junction: the branch turns into it over the radius of the other branches.
+const SHORTEST_AT_JUNCTION: f64 = 1.5;
+
+/// A centroid on the way, with what it is left by.
+struct Stop {
+    /// Index among the points of the piece.
+    at: usize,
+    centroid: Point3<f64>,
+    depths: Depths,
+    /// 1 for a clean section, towards 0 for a swollen one.
+    weight: f64,
+}
+
+/// Breaks the pieces that bend away by more than wanted; whether there was any.
+pub(super) fn split_bent(making: &mut Making<'_>, params: &FrameParams) -> bool {
+    let mut corners = Vec::new();
+    for (i, piece) in making.pieces.iter().enumerate() {
+        // A member was found straight before it was joined.
+        let is_bent = piece.passes.is_empty()
+            && worst(making, piece).is_some_and(|w| w.depths > params.max_deviation);
+        if is_bent {
+            corners.extend(corners_of(making, piece, params).into_iter().map(|at| (i, at)));
+        }
+    }
+    for &(i, at) in corners.iter().rev() {
+        making.split(i, at);
+    }
+    !corners.is_empty()
+}
+
+/// The points of a piece at which it is broken, ascending.
+fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<usize> {
+    let radius = making.radius(piece);
+    let stops = stops(making, piece);
+    let [start, end] = making.axis(piece);
+    let count = stops.len();
+    if count < 2 || radius <= 0.0 {
+        return Vec::new();
+    }
+    let place = |k: usize| match k {
+        0 => start,
+        k if k > count => end,
+        k => stops[k - 1].centroid,
+    };
+    let share = (end - start).norm() / count as f64 / radius;
+    let part = |from: usize, to: usize| {
+        let (a, b) = (place(from), place(to));
+        let cost = |s: &Stop| {
+            s.weight * share * s.depths.in_depths(&offset_from_segment(&s.centroid, &a, &b)).powi(2)
+        };
+        stops[from..to - 1].iter().map(cost).sum::<f64>()
+    };
+    let least_length = |from: usize, to: usize| {
+        let at_junction = |n: usize| making.nodes[piece.ends[n]].kind == NodeKind::Junction;
+        let meets_junction = (from == 0 && at_junction(0)) || (to > count && at_junction(1));
+        radius * if meets_junction { SHORTEST_AT_JUNCTION } else { SHORTEST_PART }
+    };
+    let price = PRICE * params.max_deviation.powi(2);
+    // best[k]: least cost of a chain from the start to place k, and the place before.
+    let mut best = vec![(0.0, 0)];
+    for to in 1..=count + 1 {
+        let candidates = (0..to).filter(|&from| {
+            let whole = from == 0 && to == count + 1;
+            whole || (place(to) - place(from)).norm() >= least_length(from, to)
+        });
+        let costs = candidates.map(|from| {
+            let corner = if from == 0 { 0.0 } else { price };
+            (best[from].0 + part(from, to) + corner, from)
+        });
+        let none = (f64::INFINITY, 0);
+        best.push(costs.min_by(|a: &(f64, usize), b| a.0.total_cmp(&b.0)).unwrap_or(none));
+    }
+    let mut corners = Vec::new();
+    let mut place = best[count + 1].1;
+    while place > 0 {
+        corners.push(stops[place - 1].at);
+        place = best[place].1;
+    }
+    corners.reverse();
+    corners
+}
+
+fn stops(making: &Making<'_>, piece: &Piece) -> Vec<Stop> {
+    let stations = making.beam_section(piece).stations;
+    let weight = |p: u32| stations.iter().find(|s| s.point == p).map_or(0.0, |s| s.weight);
+    let points = piece.points.iter().enumerate();
+    points
+        .filter_map(|(at, &p)| {
+            let section = making.sections[p as usize].as_ref()?;
+            let (centroid, depths) = (section.centroid, section.depths());
+            Some(Stop { at, centroid, depths, weight: weight(p) })
+        })
+        .collect()
+}
