@@ -58,6 +58,53 @@ pub(super) fn split_bent(making: &mut Making<'_>, params: &FrameParams) -> bool 
     !corners.is_empty()
 }
 
+/// Part of the wanted deviation within which two parts are straightened again: the nodes move once
+/// more thereafter.
+const STRAIGHT_AGAIN: f64 = 0.7;
+
+/// Takes out corners that have become needless since other nodes moved; whether there was any.
+pub(super) fn rejoin_straight(making: &mut Making<'_>, params: &FrameParams) -> bool {
+    let mut joined = false;
+    while let Some([first, second]) = straightest_corner(making, params) {
+        let gone = making.pieces.remove(second);
+        let piece = &mut making.pieces[first];
+        let skipped = making.corner_points[&piece.ends[1]];
+        piece.points.push(skipped);
+        piece.points.extend(gone.points);
+        piece.ends[1] = gone.ends[1];
+        joined = true;
+    }
+    joined
+}
+
+/// The two pieces at the corner whose straightening takes their centroids least far from the axis.
+fn straightest_corner(making: &Making<'_>, params: &FrameParams) -> Option<[usize; 2]> {
+    let mut best: Option<(f64, [usize; 2])> = None;
+    for first in 0..making.pieces.len().saturating_sub(1) {
+        let [a, b] = [first, first + 1].map(|i| &making.pieces[i]);
+        let is_corner = a.ends[1] == b.ends[0]
+            && making.corner_points.contains_key(&a.ends[1])
+            && a.ends[0] != b.ends[1];
+        if is_corner {
+            let ends = [a.ends[0], b.ends[1]].map(|n| making.nodes[n].position);
+            let far = [a, b].into_iter().map(|p| farthest_from(making, p, ends));
+            let far = far.fold(0.0, f64::max);
+            let straight = far <= STRAIGHT_AGAIN * params.max_deviation;
+            if straight && best.is_none_or(|(least, _)| far < least) {
+                best = Some((far, [first, first + 1]));
+            }
+        }
+    }
+    best.map(|(_, pair)| pair)
+}
+
+/// Farthest centroid of a piece from an axis, in half-depths.
+fn farthest_from(making: &Making<'_>, piece: &Piece, [a, b]: [Point3<f64>; 2]) -> f64 {
+    let offset = |s: &Stop| s.depths.in_depths(&offset_from_segment(&s.centroid, &a, &b));
+    let own = stops(making, piece).into_iter().filter(|s| s.weight >= 0.5);
+    own.map(|s| offset(&s)).fold(0.0, f64::max)
+}
+
 /// The points of a piece at which it is broken, ascending.
 fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<usize> {
     let radius = making.radius(piece);
@@ -112,13 +159,13 @@ fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<u
 
 fn stops(making: &Making<'_>, piece: &Piece) -> Vec<Stop> {
     let stations = making.beam_section(piece).stations;
-    let weight = |p: u32| stations.iter().find(|s| s.point == p).map_or(0.0, |s| s.weight);
+    let own = |p: u32| stations.iter().find(|s| s.point == p).map_or(0.0, |s| making.own(piece, s));
     let points = piece.points.iter().enumerate();
     points
         .filter_map(|(at, &p)| {
             let section = making.sections[p as usize].as_ref()?;
             let (centroid, depths) = (section.centroid, section.depths());
-            Some(Stop { at, centroid, depths, weight: weight(p) })
+            Some(Stop { at, centroid, depths, weight: own(p) })
         })
         .collect()
 }

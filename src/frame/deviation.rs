@@ -2,6 +2,7 @@
 
 use nalgebra::Point3;
 
+use super::beam_section::BeamStation;
 use super::params::FrameParams;
 use super::pieces::{Making, Piece};
 use super::straighten::offset_from_segment;
@@ -28,9 +29,8 @@ pub(super) fn worst(making: &Making<'_>, piece: &Piece) -> Option<Worst> {
         .map(|p| making.axis(p))
         .collect();
     let stations = making.beam_section(piece).stations;
-    let swollen =
-        |p: u32| stations.iter().any(|station| station.point == p && station.is_outlier());
-    let places = piece.points.iter().filter(|p| !swollen(**p));
+    let is_own = |s: &&BeamStation| making.own(piece, s) >= 0.5;
+    let places = stations.iter().filter(is_own).map(|s| &s.point);
     places
         .filter_map(|&p| {
             let section = making.sections[p as usize].as_ref()?;

@@ -40,8 +40,12 @@ pub fn normalize(
     let mut making = Making::new(skeleton, sections, &surface.interfaces, params);
     let mut findings = Vec::new();
     settle(&mut making, surface, params, &mut findings);
+    if bend::rejoin_straight(&mut making, params) {
+        making.drop_unused_nodes();
+        settle_nodes(&mut making, surface);
+    }
     if params.continuous && continuous::join(&mut making, params) {
-        settle(&mut making, surface, params, &mut findings);
+        settle_nodes(&mut making, surface);
     }
     deviation::report(&making, params, &mut findings);
     deviation::report_outside(&making, &surface.tree, &mut findings);
@@ -62,6 +66,16 @@ fn settle(
             || hold::hold_nodes_inside(making, &surface.tree)
             || bend::split_bent(making, params);
         if !again {
+            return;
+        }
+    }
+}
+
+/// Solves until every node stays in the material.
+fn settle_nodes(making: &mut Making<'_>, surface: &Surface) {
+    for _ in 0..MOST_ROUNDS {
+        making.solve();
+        if !hold::hold_nodes_inside(making, &surface.tree) {
             return;
         }
     }

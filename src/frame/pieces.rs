@@ -1,8 +1,10 @@
 //! Nodes and straight pieces in the making: what normalization moves, breaks and joins.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::beam_section::{BeamAxes, BeamSection};
+use super::beam_section::{BeamAxes, BeamSection, BeamStation};
 use super::params::FrameParams;
 use super::section_at::Section;
 use super::solve::{Anchor, Pull, Tie, solve_nodes};
@@ -27,6 +29,9 @@ pub(super) struct Piece {
 /// junction a branch turns into it, which is no bend of the beam.
 const SHORTEST_PIECE: f64 = 3.0;
 
+/// Radii round a junction within which sections may hold a part of other branches.
+const JUNCTION_REACH: f64 = 3.0;
+
 /// Pieces and nodes in the making.
 pub(super) struct Making<'a> {
     pub(super) skeleton: &'a Skeleton,
@@ -35,6 +40,8 @@ pub(super) struct Making<'a> {
     /// Where each node is held.
     pub(super) anchors: Vec<Anchor>,
     pub(super) pieces: Vec<Piece>,
+    /// Skeletal points of the nodes that are corners of a branch.
+    pub(super) corner_points: BTreeMap<usize, u32>,
 }
 
 impl<'a> Making<'a> {
@@ -44,8 +51,14 @@ impl<'a> Making<'a> {
         interfaces: &[InterfaceSection],
         params: &FrameParams,
     ) -> Self {
-        let mut making =
-            Self { skeleton, sections, nodes: vec![], anchors: vec![], pieces: vec![] };
+        let mut making = Self {
+            skeleton,
+            sections,
+            nodes: vec![],
+            anchors: vec![],
+            pieces: vec![],
+            corner_points: BTreeMap::new(),
+        };
         let mut of_point = vec![None; skeleton.points.len()];
         for (b, branch) in skeleton.branches.iter().enumerate() {
             let chain = skeleton.polyline(branch);
@@ -81,7 +94,11 @@ impl<'a> Making<'a> {
                 anchor.radius = i.radius();
             }
         }
-        self.push_node(Node { position, kind }, anchor)
+        let node = self.push_node(Node { position, kind }, anchor);
+        if kind == NodeKind::Bend {
+            self.corner_points.insert(node, point);
+        }
+        node
     }
 
     fn push_node(&mut self, node: Node, anchor: Anchor) -> usize {
@@ -156,11 +173,22 @@ impl<'a> Making<'a> {
             .filter_map(|station| {
                 let found = self.sections[station.point as usize].as_ref()?;
                 // Squared: a section swollen by half has a tenth of the pull of a clean one.
-                let weight = station.weight * station.weight * station.moments.area * share;
+                let weight = self.own(piece, station).powi(2) * station.moments.area * share;
                 let metric = found.depths().metric();
                 Some(Pull { ends: piece.ends, centroid: found.centroid, weight, metric })
             })
             .collect()
+    }
+
+    /// How far a section is the piece's own, 1 to 0. Swollen next to a junction it holds a part of
+    /// other branches; elsewhere it is only thick.
+    pub(super) fn own(&self, piece: &Piece, station: &BeamStation) -> f64 {
+        let Some(section) = &self.sections[station.point as usize] else { return 0.0 };
+        let reach = JUNCTION_REACH * self.radius(piece);
+        let near_junction = piece.ends.iter().map(|&n| &self.nodes[n]).any(|node| {
+            node.kind == NodeKind::Junction && (node.position - section.centroid).norm() < reach
+        });
+        if near_junction { station.weight } else { 1.0 }
     }
 
     /// Makes one node of two that a piece shorter than a section radius joins; whether any was.
@@ -219,7 +247,7 @@ impl<'a> Making<'a> {
         self.nodes[node].kind == NodeKind::Interface
     }
 
-    fn drop_unused_nodes(&mut self) {
+    pub(super) fn drop_unused_nodes(&mut self) {
         let mut new_index = vec![usize::MAX; self.nodes.len()];
         let (mut nodes, mut anchors) = (Vec::new(), Vec::new());
         for piece in &mut self.pieces {
@@ -233,6 +261,11 @@ impl<'a> Making<'a> {
             }
         }
         (self.nodes, self.anchors) = (nodes, anchors);
+        self.corner_points = std::mem::take(&mut self.corner_points)
+            .into_iter()
+            .map(|(node, point)| (new_index[node], point))
+            .filter(|(node, _)| *node != usize::MAX)
+            .collect();
     }
 
     /// Breaks a piece at one of its points, which becomes a node.
@@ -244,6 +277,7 @@ impl<'a> Making<'a> {
         let radius = self.skeleton.points[point as usize].radius;
         let node = Node { position, kind: NodeKind::Bend };
         let bend = self.push_node(node, Anchor::at(position, radius));
+        self.corner_points.insert(bend, point);
         let mut second = self.pieces[index].clone();
         let first = &mut self.pieces[index];
         first.points.truncate(at);
