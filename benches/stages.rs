@@ -3,6 +3,7 @@
 use std::hint::black_box;
 
 use beamwright::frame::{self, FrameParams, ProfileParams, match_profiles, normalize};
+use beamwright::joint::{self, JointKind};
 use beamwright::mesh::{LabelParams, prepare};
 use beamwright::output::assembly;
 use beamwright::output::step;
@@ -58,11 +59,13 @@ pub fn stages(criterion: &mut Criterion) {
     let mut frame = beams();
     match_profiles(&mut frame, &profiles, Catalogue::builtin()).expect("profiles for round bars");
 
+    let (joints, _) = joint::joints(&frame, &surface.interfaces, JointKind::Trim);
+
     group.bench_function("STEP", |b| {
         b.iter(|| {
-            let document = assembly::document("table", &frame, 7850.0).expect("sound beams");
+            let built = assembly::assembly("table", &frame, &joints, 7850.0).expect("sound beams");
             let mut text = Vec::new();
-            step::write(&document, &mut text).map(|()| text)
+            step::write(&built.document, &mut text).map(|()| text)
         });
     });
     group.finish();

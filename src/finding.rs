@@ -32,6 +32,10 @@ pub enum FindingKind {
     BeamOutside,
     /// A section that no profile matches well.
     PoorMatch,
+    /// A joint that could not be made.
+    Joint,
+    /// A shape that is no sound solid and was built as a simpler one.
+    SimplerSolid,
 }
 
 impl FindingKind {
@@ -51,6 +55,8 @@ impl FindingKind {
             Self::Deviation => "deviation",
             Self::BeamOutside => "beam-outside",
             Self::PoorMatch => "poor-match",
+            Self::Joint => "joint",
+            Self::SimplerSolid => "simpler-solid",
         }
     }
 }

@@ -14,7 +14,8 @@
 //! | march | surface | [`skeleton::Skeleton`] of skeletal points and branches | [`skeleton`] |
 //! | measure | skeleton | section at every skeletal point | [`section`] |
 //! | normalize | skeleton, sections | [`frame::Frame`] of straight beams with profiles | [`frame`] |
-//! | write | frame | STEP, cut list, skeleton files | [`output`] |
+//! | join | frame | [`joint::Joints`]: how every beam is cut at its ends | [`joint`] |
+//! | write | frame, joints | STEP, cut list, skeleton files | [`output`] |
 //!
 //! [`pipeline::run`] goes through all of them; [`evaluate`] holds any skeleton, also that of
 //! another program, against the mesh it was made of.
@@ -39,6 +40,7 @@
 pub mod evaluate;
 pub mod finding;
 pub mod frame;
+pub mod joint;
 pub mod mesh;
 pub mod observer;
 pub mod output;

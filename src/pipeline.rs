@@ -12,6 +12,7 @@ use crate::finding::{Finding, FindingKind};
 use crate::frame::{
     self, Frame, FrameParams, Normalized, ProfileParams, Section, match_profiles, normalize,
 };
+use crate::joint::{JointKind, Joints, joints};
 use crate::mesh::indexed::{IndexedMesh, weld};
 use crate::mesh::label::{LabelParams, LabelSource};
 use crate::mesh::{MeshError, Surface, prepare};
@@ -37,6 +38,8 @@ pub struct Settings {
     pub frame: FrameParams,
     /// Profiles.
     pub profiles: ProfileParams,
+    /// How beams are joined.
+    pub joints: JointKind,
     /// Files with the user's own profiles, searched besides the built-in ones.
     pub catalogue_files: Vec<PathBuf>,
 }
@@ -52,6 +55,8 @@ pub struct Outcome {
     pub sections: Vec<Option<Section>>,
     /// Straight beams.
     pub frame: Frame,
+    /// How they are cut where they meet.
+    pub joints: Joints,
     /// What the user should know, breaches first.
     pub findings: Vec<Finding>,
 }
@@ -159,9 +164,11 @@ pub fn run(
         normalize(&skeleton, &sections, &surface, &settings.frame);
     findings.extend(odd);
     findings.extend(match_profiles(&mut frame, &settings.profiles, &catalogue)?);
+    let (joints, odd) = joints(&frame, &surface.interfaces, settings.joints);
+    findings.extend(odd);
     step(observer, Stage::Frame, 1)?;
     breaches_first(&mut findings);
-    Ok(Outcome { surface, skeleton, sections, frame, findings })
+    Ok(Outcome { surface, skeleton, sections, frame, joints, findings })
 }
 
 /// The built-in profiles and those of the user.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use beamwright::frame::{FrameParams, Loft, ProfileParams};
+use beamwright::joint::JointKind;
 use beamwright::mesh::LabelParams;
 use beamwright::mesh::label::DEFAULT_NAMES;
 use beamwright::pipeline::Settings;
@@ -220,6 +221,10 @@ pub(crate) struct FrameArgs {
     #[arg(long, value_name = "HOW", default_value = "constant")]
     pub(crate) loft: LoftArg,
 
+    /// How beams end where they meet
+    #[arg(long, value_name = "KIND", default_value = "none")]
+    pub(crate) joints: JointArg,
+
     /// Most different profiles over the whole frame
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) max_profiles: Option<u32>,
@@ -227,6 +232,29 @@ pub(crate) struct FrameArgs {
     /// Your own profiles (.csv, .json), searched besides the built-in ones; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) catalogue: Vec<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum JointArg {
+    /// Square ends at the nodes; beams overlap there
+    None,
+    /// A ball at every node, beams welded to it
+    Sphere,
+    /// Mitred where two beams meet
+    Mitre,
+    /// Mitred, or cut against the side of the thickest beam
+    Trim,
+}
+
+impl From<JointArg> for JointKind {
+    fn from(arg: JointArg) -> Self {
+        match arg {
+            JointArg::None => Self::None,
+            JointArg::Sphere => Self::Sphere,
+            JointArg::Mitre => Self::Mitre,
+            JointArg::Trim => Self::Trim,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use beamwright::output::assembly::{Assembly, assembly};
 use beamwright::output::sections::SectionFormat;
 use beamwright::output::summary::Summary;
-use beamwright::output::{OutputFiles, assembly, check_target, cut_list, sections, step};
+use beamwright::output::{OutputFiles, check_target, cut_list, sections, step};
 use beamwright::pipeline::{self, Outcome};
 use beamwright::skeleton_file;
 
@@ -25,14 +26,20 @@ pub(crate) fn run(
     settings.skeleton = (&args.march).into();
     settings.frame = (&args.frame).into();
     settings.profiles = (&args.frame).into();
+    settings.joints = args.frame.joints.into();
     settings.catalogue_files = args.frame.catalogue.clone();
-    let outcome = pipeline::run(&args.input.input, &settings, progress)?;
+    let mut outcome = pipeline::run(&args.input.input, &settings, progress)?;
     let name = show::name_of(&args.input.input);
+    let stem = args.input.input.file_stem().unwrap_or_default().to_string_lossy();
+    let Assembly { document, findings } =
+        assembly(&stem, &outcome.frame, &outcome.joints, args.output.density)
+            .map_err(Failure::input)?;
+    outcome.findings.extend(findings);
     let summary = Summary::new(name, &outcome.surface, &outcome.findings)
         .with_skeleton(&outcome.surface, &outcome.skeleton)
         .with_frame(&outcome.surface, &outcome.frame);
     if !(args.result.strict && summary.has_breach()) {
-        write(&targets, args, &outcome)?;
+        write(&targets, args, &outcome, &document)?;
     }
     progress.finish();
     show::summary(&summary, &args.result)
@@ -105,15 +112,17 @@ fn same_file(a: &Path, b: &Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
-fn write(targets: &Targets, args: &ReconstructArgs, outcome: &Outcome) -> Result<(), Failure> {
-    let name = args.input.input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let document =
-        assembly::document(&name, &outcome.frame, args.output.density).map_err(Failure::input)?;
+fn write(
+    targets: &Targets,
+    args: &ReconstructArgs,
+    outcome: &Outcome,
+    document: &step::Document,
+) -> Result<(), Failure> {
     let rows = cut_list::rows(&outcome.frame, args.output.density);
     let mut files = OutputFiles::default();
     files
         .add(&targets.step, |mut out| {
-            step::write(&document, &mut out).map_err(|e| std::io::Error::other(e.to_string()))
+            step::write(document, &mut out).map_err(|e| std::io::Error::other(e.to_string()))
         })
         .and_then(|()| files.add(&targets.cut_list, |out| cut_list::write_csv(&rows, out)))
         .and_then(|()| {
@@ -129,7 +138,7 @@ fn write(targets: &Targets, args: &ReconstructArgs, outcome: &Outcome) -> Result
             .map_err(Failure::input)?;
     }
     for export in &targets.exports {
-        export.add(&mut files, outcome, &document).map_err(Failure::input)?;
+        export.add(&mut files, outcome, document).map_err(Failure::input)?;
     }
     if interrupted() {
         return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });

@@ -3,8 +3,10 @@
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 
 use super::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
+use crate::finding::{Finding, FindingKind};
 use crate::frame::shape::{BeamShape, ShapeStation};
 use crate::frame::{Beam, Frame};
+use crate::joint::{Ball, CutBeam, EndCut, Joints};
 use crate::section::outline::{Outline, Segment};
 
 /// Colours given to profiles in turn: distinct for the common kinds of colour blindness
@@ -19,57 +21,146 @@ const COLOURS: [[u8; 3]; 7] = [
     [204, 121, 167],
 ];
 
+/// Balls are grey: they are no profile.
+const BALL_COLOUR: [u8; 3] = [160, 160, 160];
+
 /// Mark of beam number `index`, counted from 0: `B001`.
 pub fn mark(index: usize) -> String {
     format!("B{:03}", index + 1)
 }
 
-/// The assembly of a frame.
+/// The assembly of a frame, and what could not be built as wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// The document.
+    pub document: Document,
+    /// Beams that were built as simpler solids.
+    pub findings: Vec<Finding>,
+}
+
+/// Builds the assembly of a frame: beams, and balls where its joints have any.
 ///
 /// * `name`: of the root.
 /// * `density`: kg/m³, for the masses.
 ///
 /// # Errors
-/// A shape that is no solid.
-pub fn document(name: &str, frame: &Frame, density: f64) -> Result<Document, step::BodyError> {
+/// A beam that is no solid even as a round bar: one without length or area.
+pub fn assembly(
+    name: &str,
+    frame: &Frame,
+    joints: &Joints,
+    density: f64,
+) -> Result<Assembly, step::BodyError> {
     let mut profiles: Vec<String> = Vec::new();
     let mut parts = Vec::with_capacity(frame.beams.len());
-    for (i, beam) in frame.beams.iter().enumerate() {
+    let mut findings = Vec::new();
+    for (i, (beam, cut)) in frame.beams.iter().zip(&joints.beams).enumerate() {
         let profile = beam.shape.name();
         let colour = profiles.iter().position(|p| *p == profile).unwrap_or_else(|| {
             profiles.push(profile);
             profiles.len() - 1
         });
-        parts.push(part(i, beam, frame, COLOURS[colour % COLOURS.len()], density)?);
+        let placement = placement(beam, frame);
+        let (body, simpler) = sound_body(beam, cut, &placement)?;
+        findings.extend(simpler.map(|how| simpler_solid(i, frame, beam, how)));
+        parts.push(part(i, beam, cut, body, placement, COLOURS[colour % COLOURS.len()], density)?);
     }
-    let beams = Group { name: "Beams".into(), parts, groups: Vec::new() };
-    Ok(Document { name: name.to_owned(), groups: vec![beams] })
+    let group = |name: &str, parts| Group { name: name.into(), parts, groups: Vec::new() };
+    let mut groups = vec![group("Beams", parts)];
+    if !joints.balls.is_empty() {
+        groups.push(group("Joints", balls(frame, &joints.balls, density)?));
+    }
+    Ok(Assembly { document: Document { name: name.to_owned(), groups }, findings })
 }
 
 fn part(
     index: usize,
     beam: &Beam,
-    frame: &Frame,
+    cut: &CutBeam,
+    body: Body,
+    placement: Isometry3<f64>,
     colour: [u8; 3],
     density: f64,
 ) -> Result<Part, step::BodyError> {
-    let body = body(&beam.shape, beam.cut_length)?;
     let name = beam.shape.name();
     let volume = body.volume()?;
-    let properties = vec![
+    let mut properties = vec![
         Property::text("profile", name.clone()),
-        Property::new("length", Value::Length(beam.cut_length)),
+        Property::new("length", Value::Length(cut.length)),
         Property::new("area", Value::Area(beam.shape.properties.area)),
         Property::new("mass", Value::Mass(volume * density * 1e-9)),
+        Property::text("branch", beam.branch.to_string()),
     ];
+    if let Some(e) = &beam.shape.errors {
+        let percent = |x: f64| format!("{:+.1} %", 100.0 * x);
+        for (name, error) in
+            [("error of A", e.area), ("error of I1", e.i_1), ("error of I2", e.i_2)]
+        {
+            properties.push(Property::text(name, percent(error)));
+        }
+    }
     Ok(Part {
         name: format!("{} {name}", mark(index)),
-        product: format!("{name} L={:.1}", beam.cut_length),
+        product: format!("{name} L={:.1}", cut.length),
         colour,
-        placement: placement(beam, frame),
+        placement,
         body,
         properties,
     })
+}
+
+/// The solid of a beam as it is cut; failing that cut square, failing that a round bar of its area,
+/// with words for what was done.
+fn sound_body(
+    beam: &Beam,
+    cut: &CutBeam,
+    placement: &Isometry3<f64>,
+) -> Result<(Body, Option<&'static str>), step::BodyError> {
+    let wanted = body(&beam.shape, cut, placement);
+    if let Ok(body) = wanted.and_then(|b| b.volume().map(|_| b)) {
+        return Ok((body, None));
+    }
+    let square = CutBeam { ends: [EndCut::SQUARE; 2], ..*cut };
+    let plain = body(&beam.shape, &square, placement);
+    if let Ok(body) = plain.and_then(|b| b.volume().map(|_| b)) {
+        return Ok((body, Some("with its ends cut square")));
+    }
+    let radius = (beam.shape.properties.area / std::f64::consts::PI).sqrt();
+    let round = Body::round_bar(radius, beam.cut_length);
+    round.volume().map(|_| (round, Some("as a round bar of its area")))
+}
+
+fn simpler_solid(index: usize, frame: &Frame, beam: &Beam, how: &str) -> Finding {
+    let [a, b] = frame.axis(beam);
+    let text =
+        format!("{} is no sound solid as {}; it was built {how}", mark(index), beam.shape.name());
+    Finding::note(FindingKind::SimplerSolid, Some(nalgebra::center(&a, &b)), text)
+}
+
+fn balls(frame: &Frame, balls: &[Ball], density: f64) -> Result<Vec<Part>, step::BodyError> {
+    balls
+        .iter()
+        .enumerate()
+        .map(|(i, ball)| {
+            let body = Body::Sphere { radius: ball.radius };
+            let mass = body.volume()? * density * 1e-9;
+            let size = format!("Ball D{:.1}", 2.0 * ball.radius);
+            Ok(Part {
+                name: format!("J{:03} {size}", i + 1),
+                product: size,
+                colour: BALL_COLOUR,
+                placement: Isometry3::from_parts(
+                    Translation3::from(frame.node(ball.node).position.coords),
+                    UnitQuaternion::identity(),
+                ),
+                body,
+                properties: vec![
+                    Property::new("diameter", Value::Length(2.0 * ball.radius)),
+                    Property::new("mass", Value::Mass(mass)),
+                ],
+            })
+        })
+        .collect()
 }
 
 /// From the coordinates of the body (x, y across, z along) to those of the model.
@@ -81,19 +172,31 @@ fn placement(beam: &Beam, frame: &Frame) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(start.coords), turn)
 }
 
-/// The loft of a shape over a length.
-fn body(shape: &BeamShape, length: f64) -> Result<Body, step::BodyError> {
+/// The loft of a shape between the cuts of its ends.
+fn body(
+    shape: &BeamShape,
+    cut: &CutBeam,
+    placement: &Isometry3<f64>,
+) -> Result<Body, step::BodyError> {
     let stations = shape
         .stations
         .iter()
-        .map(|s| station(s, length))
+        .map(|s| station(s, cut.ends[0].setback, cut.axis_length))
         .collect::<Result<Vec<_>, step::BodyError>>()?;
-    Ok(Body::Loft(Loft::between_stations(stations)))
+    let local = |end: &EndCut| match end.normal {
+        Some(normal) => {
+            let normal = placement.rotation.inverse() * normal.into_inner();
+            step::EndCut::Plane { normal }
+        }
+        None => step::EndCut::Square,
+    };
+    let [start, end] = [local(&cut.ends[0]), local(&cut.ends[1])];
+    Ok(Body::Loft(Loft { start, end, ..Loft::between_stations(stations) }))
 }
 
-fn station(station: &ShapeStation, length: f64) -> Result<Station, step::BodyError> {
+fn station(station: &ShapeStation, start: f64, length: f64) -> Result<Station, step::BodyError> {
     Ok(Station {
-        z: station.at * length,
+        z: start + station.at * length,
         outer: outline(&station.region.outer)?,
         holes: station.region.holes.iter().map(outline).collect::<Result<_, _>>()?,
     })

@@ -26,7 +26,7 @@ fn projects_of_the_samples_hold_their_layers() -> Result<(), Box<dyn Error>> {
 fn project(name: &str, folder: &Path) -> Result<(), Box<dyn Error>> {
     let input = Path::new("samples").join(name).with_extension("obj");
     let outcome = pipeline::run(&input, &Settings::default(), &mut ())?;
-    let document = assembly::document(name, &outcome.frame, 7850.0)?;
+    let document = assembly::assembly(name, &outcome.frame, &outcome.joints, 7850.0)?.document;
     let path = folder.join(name).with_extension("mlp");
     let mut files = OutputFiles::default();
     let project = Project {

@@ -1,0 +1,331 @@
+//! How beams end where they meet: spheres, mitres, ends trimmed against a through member.
+//!
+//! ```text
+//!   none            sphere             mitre              trim
+//!  ═════○═════     ════(●)════        ═══════╲           ═════════════   thickest goes through
+//!       ║              ║                     ╲║                 ║        others stop at its side
+//!       ║              ║                      ║                 ║
+//! ```
+//!
+//! | joint | ends | module |
+//! |---|---|---|
+//! | [`JointKind::None`] | square at the nodes | – |
+//! | [`JointKind::Sphere`] | square, set back so that their corners lie on a ball at the node | `sphere` |
+//! | [`JointKind::Mitre`] | where two beams meet, both in the plane that halves their angle | `mitre` |
+//! | [`JointKind::Trim`] | the same; where more meet, in a plane along the side of the thickest | `trim` |
+//!
+//! Ends in an interface section lie in its plane with every joint but `none`. All cuts are planes:
+//! a saw makes them, and the solids stay exact. On a round through member a trimmed end enters the
+//! member just so far that its edges touch: the gap a saddle would close is inside the weld.
+//!
+//! A joint that cannot be made (too oblique, or longer than the beam) leaves its ends as they are
+//! with a finding.
+
+mod cut;
+mod mitre;
+mod sphere;
+mod trim;
+
+use nalgebra::{Point3, Unit, Vector3};
+
+pub use cut::{CutBeam, EndCut};
+pub use sphere::Ball;
+
+use crate::finding::{Finding, FindingKind};
+use crate::frame::{Beam, Frame, NodeId, NodeKind};
+use crate::mesh::InterfaceSection;
+use crate::section::properties::Contours;
+
+/// How beams are joined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JointKind {
+    /// Beams run from node to node and overlap there.
+    #[default]
+    None,
+    /// A ball at every node where beams meet.
+    Sphere,
+    /// Mitred where two beams meet.
+    Mitre,
+    /// Mitred where two beams meet, trimmed against the thickest where more do.
+    Trim,
+}
+
+/// The ends of all beams, and what is put between them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Joints {
+    /// How the beams are joined.
+    pub kind: JointKind,
+    /// The beams as they are cut, in the order of the frame.
+    pub beams: Vec<CutBeam>,
+    /// Balls at nodes.
+    pub balls: Vec<Ball>,
+}
+
+/// Largest angle between a cut and a square one: 70°. A band saw goes to 60°, and at 70° the cut
+/// is already three times as long as the beam is thick.
+const MOST_OBLIQUE: f64 = 70.0 * std::f64::consts::PI / 180.0;
+
+/// A beam keeps at least this part of its length between its cuts.
+const LEAST_LEFT: f64 = 0.2;
+
+/// Points on a quarter of a curved outline, where its extent is asked for: 0.1 % of it.
+const PER_QUARTER: usize = 16;
+
+/// Makes the joints of a frame.
+///
+/// * `interfaces`: planes in which the beams of interface nodes end.
+pub fn joints(
+    frame: &Frame,
+    interfaces: &[InterfaceSection],
+    kind: JointKind,
+) -> (Joints, Vec<Finding>) {
+    let members = Members::new(frame);
+    let mut ends = vec![[EndCut::SQUARE; 2]; frame.beams.len()];
+    let mut balls = Vec::new();
+    let mut findings = Vec::new();
+    for (n, at) in members.at_node.iter().enumerate() {
+        let node = NodeId::new(n);
+        let cuts = match (kind, frame.node(node).kind) {
+            (JointKind::None, _) => continue,
+            (_, NodeKind::Interface) => at_interface(frame, node, at, interfaces),
+            (JointKind::Sphere, _) => {
+                let Some((ball, cuts)) = sphere::ball(frame, node, at) else { continue };
+                balls.push(ball);
+                cuts
+            }
+            (JointKind::Mitre, _) if at.len() > 2 => continue,
+            (JointKind::Mitre | JointKind::Trim, _)
+                if at.len() == 2 && at.iter().all(End::ends) =>
+            {
+                mitre::cuts(at)
+            }
+            (JointKind::Mitre, _) => continue,
+            (JointKind::Trim, _) => trim::cuts(at),
+        };
+        for (end, cut) in at.iter().zip(cuts) {
+            match (cut, end.side) {
+                (Some(cut), Some(side)) if cut.angle <= MOST_OBLIQUE => ends[end.beam][side] = cut,
+                (Some(_), Some(_)) => findings.push(too_oblique(frame, node)),
+                _ => {}
+            }
+        }
+    }
+    let beams = frame
+        .beams
+        .iter()
+        .zip(ends)
+        .map(|(beam, ends)| {
+            CutBeam::new(beam, ends).unwrap_or_else(|| {
+                findings.push(too_short(frame, beam));
+                CutBeam::square(beam)
+            })
+        })
+        .collect();
+    (Joints { kind, beams, balls }, findings)
+}
+
+/// A beam at a node.
+struct End {
+    beam: usize,
+    /// Which of its ends is here; `None` where it passes.
+    side: Option<usize>,
+    /// Along the beam, away from the node.
+    away: Unit<Vector3<f64>>,
+    /// Corners of its outline, from the axis, in model coordinates, mm.
+    corners: Vec<Vector3<f64>>,
+    /// Its mean section area, mm².
+    area: f64,
+    /// Whether its outline is a circle.
+    is_round: bool,
+}
+
+impl End {
+    fn ends(&self) -> bool {
+        self.side.is_some()
+    }
+
+    /// How far the beam reaches from its axis in a direction, mm.
+    fn support(&self, direction: &Vector3<f64>) -> f64 {
+        self.corners.iter().map(|c| c.dot(direction)).fold(0.0, f64::max)
+    }
+
+    /// Radius of the circle about the axis that holds the outline, mm.
+    fn reach(&self) -> f64 {
+        self.corners.iter().map(Vector3::norm).fold(0.0, f64::max)
+    }
+}
+
+/// The beams at every node.
+struct Members {
+    at_node: Vec<Vec<End>>,
+}
+
+impl Members {
+    fn new(frame: &Frame) -> Self {
+        let mut at_node: Vec<Vec<End>> = frame.nodes.iter().map(|_| Vec::new()).collect();
+        for (i, beam) in frame.beams.iter().enumerate() {
+            for side in 0..2 {
+                at_node[beam.ends[side].index()].push(end(i, beam, Some(side)));
+            }
+            for passage in &beam.passes {
+                at_node[passage.node.index()].push(end(i, beam, None));
+            }
+        }
+        Self { at_node }
+    }
+}
+
+fn end(index: usize, beam: &Beam, side: Option<usize>) -> End {
+    let stations = &beam.shape.stations;
+    let region = if side == Some(1) { &stations[stations.len() - 1] } else { &stations[0] };
+    let axes = beam.axes.rolled(beam.shape.roll);
+    let outline = Contours::of_region(&region.region, PER_QUARTER).outer;
+    let corners = outline.iter().map(|p| axes.y.into_inner() * p.x + axes.z.into_inner() * p.y);
+    End {
+        beam: index,
+        side,
+        away: if side == Some(1) { -beam.axes.x } else { beam.axes.x },
+        corners: corners.collect(),
+        area: beam.shape.properties.area,
+        is_round: matches!(region.region.outer, crate::section::outline::Outline::Circle { .. }),
+    }
+}
+
+/// Ends in the plane of the interface section a node belongs to.
+fn at_interface(
+    frame: &Frame,
+    node: NodeId,
+    at: &[End],
+    interfaces: &[InterfaceSection],
+) -> Vec<Option<EndCut>> {
+    let place = frame.node(node).position;
+    let squared = |i: &InterfaceSection| (i.centroid - place).norm_squared();
+    let nearest = interfaces.iter().min_by(|a, b| squared(a).total_cmp(&squared(b)));
+    let normal = nearest.and_then(|i| Unit::try_new(i.normal, 0.0));
+    let cut = |end: &End| normal.map(|n| EndCut::in_plane(0.0, n, &end.away));
+    at.iter().map(cut).collect()
+}
+
+fn too_oblique(frame: &Frame, node: NodeId) -> Finding {
+    let place = Some(frame.node(node).position);
+    let text = format!(
+        "a beam meets its joint at more than {:.0}° from a square cut; its end was left square",
+        MOST_OBLIQUE.to_degrees()
+    );
+    Finding::note(FindingKind::Joint, place, text)
+}
+
+fn too_short(frame: &Frame, beam: &Beam) -> Finding {
+    let [a, b] = frame.axis(beam);
+    let place: Point3<f64> = nalgebra::center(&a, &b);
+    let text = format!(
+        "a beam of {:.1} mm is too short for the joints at its ends; they were left square",
+        beam.length
+    );
+    Finding::note(FindingKind::Joint, Some(place), text)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+    use super::*;
+    use crate::frame::shape::BeamShape;
+    use crate::frame::{BeamAxes, BeamSection, Node};
+
+    /// Round bars of radius `radius` between nodes, none of them at an interface section.
+    fn frame(nodes: &[[f64; 3]], bars: &[([u32; 2], f64)]) -> Frame {
+        let node = |p: &[f64; 3]| Node { position: Point3::from(*p), kind: NodeKind::Junction };
+        let nodes: Vec<Node> = nodes.iter().map(node).collect();
+        let beams = bars
+            .iter()
+            .map(|&(ends, radius)| {
+                let [a, b] = ends.map(|n| nodes[n as usize].position);
+                let area = PI * radius * radius;
+                Beam {
+                    ends: ends.map(NodeId),
+                    passes: Vec::new(),
+                    branch: 0,
+                    axes: BeamAxes::along(Unit::new_normalize(b - a)),
+                    length: (b - a).norm(),
+                    cut_length: (b - a).norm(),
+                    section: BeamSection::default(),
+                    measured: None,
+                    assumed_area: area,
+                    shape: BeamShape::unmatched(area),
+                }
+            })
+            .collect();
+        Frame { nodes, beams }
+    }
+
+    fn elbow() -> Frame {
+        frame(&[[0.0; 3], [50.0, 0.0, 0.0], [50.0, 40.0, 0.0]], &[([0, 1], 3.0), ([1, 2], 3.0)])
+    }
+
+    #[test]
+    fn two_bars_at_a_right_angle_are_mitred_at_45_degrees() {
+        let (joints, findings) = joints(&elbow(), &[], JointKind::Mitre);
+        assert!(findings.is_empty());
+        let [first, second] = [&joints.beams[0], &joints.beams[1]];
+        assert_eq!(first.ends[0], EndCut::SQUARE);
+        assert!((first.ends[1].angle - FRAC_PI_4).abs() < 1e-12);
+        assert!((second.ends[0].angle - FRAC_PI_4).abs() < 1e-12);
+        // The long side is longer than the axis by the radius.
+        assert!((first.axis_length - 50.0).abs() < 1e-9);
+        assert!((first.length - 53.0).abs() < 1e-2, "{}", first.length);
+    }
+
+    #[test]
+    fn mitres_of_a_frame_corner_lean_towards_each_other() {
+        let u = frame(
+            &[[0.0, 30.0, 0.0], [0.0; 3], [50.0, 0.0, 0.0], [50.0, 30.0, 0.0]],
+            &[([0, 1], 2.0), ([1, 2], 2.0), ([2, 3], 2.0)],
+        );
+        let (joints, _) = joints(&u, &[], JointKind::Trim);
+        assert!((joints.beams[1].twist - PI).abs() < 1e-9, "a trapezium");
+        let z = frame(
+            &[[0.0, 30.0, 0.0], [0.0; 3], [50.0, 0.0, 0.0], [50.0, -30.0, 0.0]],
+            &[([0, 1], 2.0), ([1, 2], 2.0), ([2, 3], 2.0)],
+        );
+        let (joints, _) = super::joints(&z, &[], JointKind::Trim);
+        assert!(joints.beams[1].twist.abs() < 1e-9, "a parallelogram");
+    }
+
+    #[test]
+    fn a_thin_bar_is_cut_at_the_side_of_a_thick_one() {
+        let tee = frame(
+            &[[-40.0, 0.0, 0.0], [0.0; 3], [40.0, 0.0, 0.0], [0.0, 30.0, 0.0]],
+            &[([0, 1], 5.0), ([1, 2], 5.0), ([1, 3], 3.0)],
+        );
+        let (joints, findings) = joints(&tee, &[], JointKind::Trim);
+        assert!(findings.is_empty());
+        assert_eq!(joints.beams[0].ends, [EndCut::SQUARE; 2]);
+        // Its edges touch the thick bar: √(5² − 3²) from the axis.
+        let cut = joints.beams[2].ends[0];
+        assert!((cut.setback - 4.0).abs() < 0.02 && cut.normal.is_none(), "{cut:?}");
+    }
+
+    #[test]
+    fn corners_of_the_beams_lie_on_the_ball() {
+        let (joints, _) = joints(&elbow(), &[], JointKind::Sphere);
+        let ball = joints.balls.iter().find(|b| b.node == NodeId(1)).unwrap();
+        // At a right angle bars of radius 3 are clear of each other 3 √2 from the node.
+        assert!((ball.radius - 3.0 / (0.5 * FRAC_PI_2).sin()).abs() < 1e-2);
+        let setback = joints.beams[0].ends[1].setback;
+        assert!((setback.hypot(3.0) - ball.radius).abs() < 1e-2);
+        assert_eq!(joints.balls.len(), 1, "a single bar needs no ball");
+    }
+
+    #[test]
+    fn a_bar_shorter_than_its_joints_stays_as_it_is() {
+        let short = frame(
+            &[[0.0; 3], [4.0, 0.0, 0.0], [4.0, 30.0, 0.0], [0.0, 30.0, 0.0]],
+            &[([0, 1], 3.0), ([1, 2], 3.0), ([0, 3], 3.0)],
+        );
+        let (joints, findings) = joints(&short, &[], JointKind::Sphere);
+        assert_eq!(joints.beams[0].ends, [EndCut::SQUARE; 2]);
+        assert_eq!(findings.len(), 1);
+        assert!(findings[0].text.contains("4.0 mm is too short"));
+    }
+}
