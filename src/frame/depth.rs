@@ -66,7 +66,7 @@ mod tests {
         let contour = corners.map(|[y, z]| Point3::new(0.0, y, z)).to_vec();
         let plank = Section { point: 0, plane, contour, area: 32.0, centroid: Point3::origin() };
         let depths = plank.depths();
-        let half = 2.0 / 12f64.sqrt();
+        let half = 2.0 * 2.0 / 12f64.sqrt();
         assert!((depths.in_depths(&Vector3::new(0.0, 0.0, 1.0)) - 1.0 / half).abs() < 1e-9);
         assert!((depths.in_depths(&Vector3::new(0.0, 8.0, 0.0)) - 1.0 / half).abs() < 1e-9);
         let metric = depths.metric();

@@ -88,7 +88,7 @@ impl BeamShape {
         self.stations.windows(2).all(|w| w[0].region == w[1].region)
     }
 
-    /// Name for lists and files: that of the profile, and of a taper the sizes at both ends.
+    /// Name for lists and files: that of the profile, and whether the beam tapers.
     pub fn name(&self) -> String {
         if self.is_constant() {
             self.profile.to_string()
