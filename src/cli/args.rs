@@ -286,9 +286,22 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) sections: Option<PathBuf>,
 
-    /// What else to write, by extension: .mlp (MeshLab project with its layers); may be repeated
+    /// What else to write, by extension: .mlp (MeshLab project with its layers),
+    /// .glb (3D scene with one node a beam); may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) export: Vec<PathBuf>,
+
+    /// Picture of mesh and beams: .png .svg; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) picture: Vec<PathBuf>,
+
+    /// Report to look at in a browser: one .html file that needs no network
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) report: Option<PathBuf>,
+
+    /// Skeleton of another program to hold against ours in the report; may be repeated
+    #[arg(long, value_name = "SKELETON", requires = "report")]
+    pub(crate) compare: Vec<PathBuf>,
 
     /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
     #[arg(long, value_name = "KG/M3", default_value_t = 7850.0)]

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use beamwright::output::files::WriteError;
 use beamwright::output::mlp::{self, Project};
-use beamwright::output::{OutputFiles, step};
+use beamwright::output::view::View;
+use beamwright::output::{OutputFiles, glb, step};
 use beamwright::pipeline::Outcome;
 
 use super::exit::Failure;
@@ -20,14 +21,16 @@ pub(crate) struct Export {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
     MeshLabProject,
+    BinaryGltf,
 }
 
 impl Format {
-    const ALL: [Self; 1] = [Self::MeshLabProject];
+    const ALL: [Self; 2] = [Self::MeshLabProject, Self::BinaryGltf];
 
     const fn extension(self) -> &'static str {
         match self {
             Self::MeshLabProject => "mlp",
+            Self::BinaryGltf => "glb",
         }
     }
 
@@ -51,6 +54,7 @@ impl Export {
     pub(crate) fn targets(&self) -> Vec<PathBuf> {
         match self.format {
             Format::MeshLabProject => mlp::targets(&self.path).to_vec(),
+            Format::BinaryGltf => vec![self.path.clone()],
         }
     }
 
@@ -63,6 +67,8 @@ impl Export {
     ) -> Result<(), WriteError> {
         match self.format {
             Format::MeshLabProject => mlp::add(files, &self.path, &project(outcome, document)),
+            Format::BinaryGltf => files
+                .add(&self.path, |out| glb::write(&document.name, &view(outcome, document), out)),
         }
     }
 }
@@ -70,4 +76,10 @@ impl Export {
 fn project<'a>(outcome: &'a Outcome, document: &'a step::Document) -> Project<'a> {
     let Outcome { surface, skeleton, sections, .. } = outcome;
     Project { surface, skeleton, sections, document }
+}
+
+/// The result as pictures and 3D files show it.
+pub(crate) fn view<'a>(outcome: &'a Outcome, document: &step::Document) -> View<'a> {
+    let Outcome { surface, skeleton, sections, frame, .. } = outcome;
+    View::new(surface, skeleton, sections, frame, document)
 }

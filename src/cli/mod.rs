@@ -5,6 +5,7 @@ mod evaluate;
 mod exit;
 mod export;
 mod inspect;
+mod look;
 mod progress;
 mod reconstruct;
 mod show;

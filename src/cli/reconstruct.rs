@@ -12,6 +12,7 @@ use beamwright::skeleton_file;
 use super::args::{GlobalArgs, ReconstructArgs};
 use super::exit::{Exit, Failure};
 use super::export::Export;
+use super::look::Looks;
 use super::progress::{Progress, interrupted};
 use super::show;
 use super::skeleton::skeleton_format;
@@ -39,7 +40,7 @@ pub(crate) fn run(
         .with_skeleton(&outcome.surface, &outcome.skeleton)
         .with_frame(&outcome.surface, &outcome.frame);
     if !(args.result.strict && summary.has_breach()) {
-        write(&targets, args, &outcome, &document)?;
+        write(targets, args, &outcome, &summary, &document)?;
     }
     progress.finish();
     show::summary(&summary, &args.result)
@@ -53,6 +54,7 @@ struct Targets {
     skeleton_format: skeleton_file::Format,
     sections: Option<(PathBuf, SectionFormat)>,
     exports: Vec<Export>,
+    looks: Looks,
 }
 
 impl Targets {
@@ -74,9 +76,11 @@ impl Targets {
         let sections = args.output.sections.as_deref().map(section_target).transpose()?;
         let exports: Vec<Export> =
             args.output.export.iter().map(|path| Export::new(path)).collect::<Result<_, _>>()?;
+        let looks = Looks::new(args)?;
         let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone()];
         all.extend(sections.iter().map(|(path, _)| path.clone()));
         all.extend(exports.iter().flat_map(Export::targets));
+        all.extend(looks.targets());
         for (i, target) in all.iter().enumerate() {
             check_target(target).map_err(Failure::input)?;
             if same_file(target, &args.input.input) {
@@ -96,6 +100,7 @@ impl Targets {
             skeleton,
             sections,
             exports,
+            looks,
         })
     }
 }
@@ -113,9 +118,10 @@ fn same_file(a: &Path, b: &Path) -> bool {
 }
 
 fn write(
-    targets: &Targets,
+    targets: Targets,
     args: &ReconstructArgs,
     outcome: &Outcome,
+    summary: &Summary,
     document: &step::Document,
 ) -> Result<(), Failure> {
     let rows = cut_list::rows(&outcome.frame, args.output.density);
@@ -140,6 +146,7 @@ fn write(
     for export in &targets.exports {
         export.add(&mut files, outcome, document).map_err(Failure::input)?;
     }
+    targets.looks.add(&mut files, args, outcome, summary, document)?;
     if interrupted() {
         return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
     }

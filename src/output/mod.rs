@@ -3,11 +3,16 @@
 pub mod assembly;
 pub mod beam_table;
 pub mod cut_list;
+mod decimate;
 pub mod files;
+pub mod glb;
 pub mod mesh_export;
 pub mod mlp;
+pub mod picture;
+pub mod report;
 pub mod sections;
 pub mod step;
 pub mod summary;
+pub mod view;
 
 pub use files::{OutputFiles, WriteError, check_target};
