@@ -96,6 +96,12 @@ struct Facet {
     colour: [u8; 3],
 }
 
+/// A side of the mesh, and the normals of the two faces that meet there.
+struct Edge {
+    ends: [Point3<f64>; 2],
+    normals: [Vector3<f64>; 2],
+}
+
 /// What is drawn, as loose triangles and lines.
 struct Model {
     mesh: Vec<Facet>,
@@ -103,8 +109,7 @@ struct Model {
     pale: Vec<Facet>,
     beams: Vec<Facet>,
     lines: Vec<[Point3<f64>; 2]>,
-    /// Sides of the mesh as corners and the normals of the two faces that meet there.
-    edges: Vec<([Point3<f64>; 2], [Vector3<f64>; 2])>,
+    edges: Vec<Edge>,
     points: Vec<Point3<f64>>,
 }
 
@@ -153,14 +158,14 @@ fn colour(design: bool) -> [u8; 3] {
     if design { DESIGN } else { NON_DESIGN }
 }
 
-fn edges(view: &View<'_>) -> Vec<([Point3<f64>; 2], [Vector3<f64>; 2])> {
+fn edges(view: &View<'_>) -> Vec<Edge> {
     let mesh = &view.surface.mesh;
     let sides = mesh.faces().flat_map(|f| f.half_edges());
     sides
         .filter(|&h| h.index() < mesh.twin(h).index())
-        .map(|h| {
-            let ends = [mesh.position(mesh.origin(h)), mesh.position(mesh.target(h))];
-            (ends, [h.face(), mesh.neighbour(h)].map(|f| mesh.doubled_area_vector(f)))
+        .map(|h| Edge {
+            ends: [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v)),
+            normals: [h.face(), mesh.neighbour(h)].map(|f| mesh.doubled_area_vector(f)),
         })
         .collect()
 }

@@ -141,7 +141,7 @@ fn lines(text: &mut String, lines: &[[Point3<f64>; 2]], camera: &Camera) {
 /// Edges of the mesh between a face that looks to the viewer and one that does not.
 fn outlines(text: &mut String, model: &Model, camera: &Camera) {
     let mut path = String::new();
-    for (ends, normals) in &model.edges {
+    for Edge { ends, normals } in &model.edges {
         let [a, b] = normals.map(|n| camera.turn(&n).z > 0.0);
         if a != b {
             line(&mut path, &ends.map(|p| camera.project(&p)));
