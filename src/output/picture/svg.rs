@@ -9,7 +9,7 @@ use nalgebra::Point3;
 
 use super::camera::Camera;
 use super::{
-    DESIGN, Facet, Model, NON_DESIGN, Panel, Projection, SIZE, SKELETON, light, lit, panel,
+    DESIGN, Edge, Facet, Model, NON_DESIGN, Panel, Projection, SIZE, SKELETON, light, lit, panel,
 };
 use crate::output::view::View;
 
