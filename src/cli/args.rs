@@ -30,7 +30,7 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Turn a mesh into beams: STEP assembly, cut list, skeleton
     #[command(after_help = RECONSTRUCT_EXAMPLES)]
-    Reconstruct(ReconstructArgs),
+    Reconstruct(Box<ReconstructArgs>),
     /// March the skeleton of a mesh and write it
     #[command(after_help = SKELETON_EXAMPLES)]
     Skeleton(SkeletonArgs),
