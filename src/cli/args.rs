@@ -57,11 +57,11 @@ Examples:
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Messages")]
 pub(crate) struct GlobalArgs {
-    /// No progress, no notes; errors only
+    /// No progress and no summary; only errors, and results asked for with --json
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
 
-    /// More notes on standard error
+    /// The time of each stage and the files written, on standard error
     #[arg(short, long, global = true, conflicts_with = "quiet")]
     pub(crate) verbose: bool,
 

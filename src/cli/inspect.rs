@@ -10,11 +10,12 @@ use super::show;
 
 pub(crate) fn run(
     args: &InspectArgs,
-    _global: &GlobalArgs,
+    global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
     let surface = surface(&args.input.input, &args.input.settings(), progress)?;
     progress.finish();
     let name = show::name_of(&args.input.input);
-    show::summary(&Summary::new(name, &surface, &mesh_findings(&surface)), &args.result)
+    let summary = Summary::new(name, &surface, &mesh_findings(&surface));
+    show::summary(&summary, &args.result, global)
 }

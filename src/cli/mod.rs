@@ -10,6 +10,7 @@ mod progress;
 mod reconstruct;
 mod show;
 mod skeleton;
+mod targets;
 
 use std::process::ExitCode;
 

@@ -3,6 +3,7 @@
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 use beamwright::observer::{Observer, Stage};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -24,25 +25,65 @@ pub(crate) fn interrupted() -> bool {
 }
 
 /// Shows progress in the way that was asked for.
-pub(crate) enum Progress {
+pub(crate) struct Progress {
+    shown: Shown,
+    /// The stage at work and when it began; kept where notes are wanted.
+    clock: Option<Clock>,
+}
+
+enum Shown {
     Bar(ProgressBar),
     Json,
-    None,
+    Nothing,
+}
+
+#[derive(Default)]
+struct Clock {
+    at_work: Option<(Stage, Instant)>,
 }
 
 impl Progress {
     pub(crate) fn new(args: &GlobalArgs) -> Self {
-        match args.progress {
-            How::Json => Self::Json,
-            How::Auto if !args.quiet && std::io::stderr().is_terminal() => Self::Bar(bar()),
-            _ => Self::None,
-        }
+        let shown = match args.progress {
+            How::Json => Shown::Json,
+            How::Auto if !args.quiet && std::io::stderr().is_terminal() => Shown::Bar(bar()),
+            _ => Shown::Nothing,
+        };
+        Self { shown, clock: args.verbose.then(Clock::default) }
     }
 
     /// Takes the bar away, so that nothing is left of it on the terminal.
-    pub(crate) fn finish(&self) {
-        if let Self::Bar(bar) = self {
+    pub(crate) fn finish(&mut self) {
+        self.end_stage();
+        if let Shown::Bar(bar) = &self.shown {
             bar.finish_and_clear();
+        }
+    }
+
+    /// A line on standard error for those who asked for notes.
+    pub(crate) fn note(&self, text: &str) {
+        if self.clock.is_none() {
+            return;
+        }
+        // Nobody listens any more: that is no reason to stop the work.
+        let write = || drop(writeln!(std::io::stderr(), "{text}"));
+        match &self.shown {
+            Shown::Bar(bar) => bar.suspend(write),
+            _ => write(),
+        }
+    }
+
+    fn end_stage(&mut self) {
+        if let Some((stage, since)) = self.clock.as_mut().and_then(|clock| clock.at_work.take()) {
+            self.note(&format!("{:<10} {:.3} s", stage.name(), since.elapsed().as_secs_f64()));
+        }
+    }
+
+    fn begin_stage(&mut self, stage: Stage) {
+        let Some(clock) = &self.clock else { return };
+        if clock.at_work.is_none_or(|(at_work, _)| at_work != stage) {
+            self.end_stage();
+            self.clock = Some(Clock { at_work: Some((stage, Instant::now())) });
         }
     }
 }
@@ -57,19 +98,20 @@ fn bar() -> ProgressBar {
 
 impl Observer for Progress {
     fn progress(&mut self, stage: Stage, done: usize, total: usize) -> ControlFlow<()> {
-        match self {
-            Self::Bar(bar) => {
+        self.begin_stage(stage);
+        match &self.shown {
+            Shown::Bar(bar) => {
                 bar.set_message(stage.name());
                 bar.set_length(total as u64);
                 bar.set_position(done as u64);
             }
-            Self::Json => {
+            Shown::Json => {
                 let line =
                     serde_json::json!({ "stage": stage.name(), "done": done, "total": total });
                 // Nobody listens any more: that is no reason to stop the work.
                 let _ = writeln!(std::io::stderr(), "{line}");
             }
-            Self::None => {}
+            Shown::Nothing => {}
         }
         if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use beamwright::output::assembly::{Assembly, assembly};
 use beamwright::output::sections::SectionFormat;
 use beamwright::output::summary::Summary;
-use beamwright::output::{OutputFiles, check_target, cut_list, sections, step};
+use beamwright::output::{OutputFiles, cut_list, sections, step};
 use beamwright::pipeline::{self, Outcome};
 use beamwright::skeleton_file;
 
@@ -13,13 +13,13 @@ use super::args::{GlobalArgs, ReconstructArgs};
 use super::exit::{Exit, Failure};
 use super::export::Export;
 use super::look::Looks;
-use super::progress::{Progress, interrupted};
-use super::show;
+use super::progress::Progress;
 use super::skeleton::skeleton_format;
+use super::{show, targets};
 
 pub(crate) fn run(
     args: &ReconstructArgs,
-    _global: &GlobalArgs,
+    global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
     let targets = Targets::new(args)?;
@@ -40,10 +40,11 @@ pub(crate) fn run(
         .with_skeleton(&outcome.surface, &outcome.skeleton)
         .with_frame(&outcome.surface, &outcome.frame);
     if !(args.result.strict && summary.has_breach()) {
-        write(targets, args, &outcome, &summary, &document)?;
+        let files = written(targets, args, &outcome, &summary, &document)?;
+        targets::commit(files, progress)?;
     }
     progress.finish();
-    show::summary(&summary, &args.result)
+    show::summary(&summary, &args.result, global)
 }
 
 /// Where the results go.
@@ -81,18 +82,7 @@ impl Targets {
         all.extend(sections.iter().map(|(path, _)| path.clone()));
         all.extend(exports.iter().flat_map(Export::targets));
         all.extend(looks.targets());
-        for (i, target) in all.iter().enumerate() {
-            check_target(target).map_err(Failure::input)?;
-            if same_file(target, &args.input.input) {
-                return Err(Failure::usage(format!(
-                    "the output {} is the input file",
-                    target.display()
-                )));
-            }
-            if all[..i].contains(target) {
-                return Err(Failure::usage(format!("{} is named twice", target.display())));
-            }
-        }
+        targets::check(all.iter().map(PathBuf::as_path), &args.input, &args.frame.catalogue)?;
         Ok(Self {
             skeleton_format: skeleton_format(&skeleton)?,
             step,
@@ -112,18 +102,14 @@ fn section_target(path: &Path) -> Result<(PathBuf, SectionFormat), Failure> {
     Ok((path.to_owned(), format))
 }
 
-/// Whether two paths name one existing file.
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
-fn write(
+/// The outputs, complete under temporary names.
+fn written(
     targets: Targets,
     args: &ReconstructArgs,
     outcome: &Outcome,
     summary: &Summary,
     document: &step::Document,
-) -> Result<(), Failure> {
+) -> Result<OutputFiles, Failure> {
     let rows = cut_list::rows(&outcome.frame, args.output.density);
     let mut files = OutputFiles::default();
     files
@@ -147,8 +133,5 @@ fn write(
         export.add(&mut files, outcome, document).map_err(Failure::input)?;
     }
     targets.looks.add(&mut files, args, outcome, summary, document)?;
-    if interrupted() {
-        return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
-    }
-    files.commit().map_err(Failure::input)
+    Ok(files)
 }

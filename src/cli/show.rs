@@ -5,7 +5,7 @@ use std::path::Path;
 
 use beamwright::output::summary::Summary;
 
-use super::args::ResultArgs;
+use super::args::{GlobalArgs, ResultArgs};
 use super::exit::{Exit, Failure};
 
 /// The name of a file, safe to print.
@@ -13,15 +13,30 @@ pub(crate) fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Prints a summary in the way that was asked for; the exit code it means.
-pub(crate) fn summary(summary: &Summary, args: &ResultArgs) -> Result<Exit, Failure> {
-    let text = if args.json {
-        serde_json::to_string_pretty(summary).map_err(Failure::input)? + "\n"
-    } else {
-        summary.to_string()
+/// Prints a summary in the way that was asked for.
+///
+/// # Errors
+/// With `--strict`, the first promise that does not hold.
+pub(crate) fn summary(
+    summary: &Summary,
+    args: &ResultArgs,
+    global: &GlobalArgs,
+) -> Result<Exit, Failure> {
+    if args.json {
+        print(&(serde_json::to_string_pretty(summary).map_err(Failure::input)? + "\n"))?;
+    } else if !global.quiet {
+        print(&summary.to_string())?;
+    }
+    let mut breaches = summary.findings.iter().filter(|f| f.breach && args.strict);
+    let Some(first) = breaches.next() else { return Ok(Exit::Done) };
+    let more = match breaches.count() {
+        0 => String::new(),
+        count => format!(" (and {count} more)"),
     };
-    print(&text)?;
-    Ok(if args.strict && summary.has_breach() { Exit::Breach } else { Exit::Done })
+    Err(Failure {
+        exit: Exit::Breach,
+        message: format!("a promise is broken: {}{more}", first.text),
+    })
 }
 
 /// Writes to standard output; a reader that has gone away is no failure.

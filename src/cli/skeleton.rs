@@ -1,22 +1,22 @@
 //! `beamwright skeleton`.
 
+use beamwright::output::OutputFiles;
 use beamwright::output::summary::Summary;
-use beamwright::output::{OutputFiles, check_target};
 use beamwright::pipeline::march;
 use beamwright::skeleton_file;
 
 use super::args::{GlobalArgs, SkeletonArgs};
 use super::exit::{Exit, Failure};
-use super::progress::{Progress, interrupted};
-use super::show;
+use super::progress::Progress;
+use super::{show, targets};
 
 pub(crate) fn run(
     args: &SkeletonArgs,
-    _global: &GlobalArgs,
+    global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
     let format = skeleton_format(&args.output)?;
-    check_target(&args.output).map_err(Failure::input)?;
+    targets::check([args.output.as_path()], &args.input, &[])?;
     let mut settings = args.input.settings();
     settings.skeleton = (&args.march).into();
     let (surface, marched) = march(&args.input.input, &settings, progress)?;
@@ -28,13 +28,10 @@ pub(crate) fn run(
         files
             .add(&args.output, |mut out| skeleton_file::write(&marched.skeleton, format, &mut out))
             .map_err(Failure::input)?;
-        if interrupted() {
-            return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
-        }
-        files.commit().map_err(Failure::input)?;
+        targets::commit(files, progress)?;
     }
     progress.finish();
-    show::summary(&summary, &args.result)
+    show::summary(&summary, &args.result, global)
 }
 
 /// The skeleton format a file name asks for.

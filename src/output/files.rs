@@ -24,7 +24,8 @@ pub struct WriteError {
     pub source: io::Error,
 }
 
-/// Whether a file can be created at a path: its folder is there and it is no folder itself.
+/// Whether a file can be created at a path: its folder is there, and what is there already is a
+/// file.
 ///
 /// # Errors
 /// What creating it would fail with.
@@ -34,6 +35,9 @@ pub fn check_target(path: &Path) -> Result<(), WriteError> {
     };
     if path.is_dir() {
         return fail(io::ErrorKind::IsADirectory, "it is a folder");
+    }
+    if path.exists() && !path.is_file() {
+        return fail(io::ErrorKind::InvalidInput, "it is a device or pipe, not a file");
     }
     if !folder_of(path).is_dir() {
         return fail(io::ErrorKind::NotFound, "its folder does not exist");
@@ -49,7 +53,7 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 impl OutputFiles {
-    /// Writes a file under a temporary name.
+    /// Writes a file under a temporary name. Where a link leads to the file, the link stays.
     ///
     /// # Errors
     /// What `write` fails with, or the file system.
@@ -59,6 +63,7 @@ impl OutputFiles {
         write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
     ) -> Result<(), WriteError> {
         let failed = |source: io::Error| WriteError { path: path.to_owned(), source };
+        let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let mut builder = Builder::new();
         builder.prefix(".beamwright-").suffix(".part");
         #[cfg(unix)]
@@ -67,12 +72,17 @@ impl OutputFiles {
             // As any new file: the user's mask decides.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(folder_of(path)).map_err(failed)?;
+        let file = builder.tempfile_in(folder_of(&target)).map_err(failed)?;
         let mut buffered = BufWriter::with_capacity(1 << 16, file);
         write(&mut buffered).map_err(|e| failed(io::Error::other(e.to_string())))?;
         let file = buffered.into_inner().map_err(|e| failed(e.into_error()))?;
-        self.pending.push((path.to_owned(), file));
+        self.pending.push((target, file));
         Ok(())
+    }
+
+    /// Where the files will be.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.pending.iter().map(|(path, _)| path.as_path())
     }
 
     /// Puts all files in their places.
