@@ -7,6 +7,7 @@ use beamwright::frame::{FrameParams, Loft, ProfileParams};
 use beamwright::joint::JointKind;
 use beamwright::mesh::LabelParams;
 use beamwright::mesh::label::DEFAULT_NAMES;
+use beamwright::output::cut_list::{CutListParams, Stock};
 use beamwright::pipeline::Settings;
 use beamwright::section::{MatchMode, ProfileChoice};
 use beamwright::skeleton::{Orientation, SkeletonParams};
@@ -14,6 +15,7 @@ use beamwright_formats::{ReadOptions, Unit};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::evaluate::EvaluateArgs;
+use super::profiles::ProfilesArgs;
 
 /// From a topology-optimized mesh to beams one can buy, cut and weld.
 #[derive(Debug, Parser)]
@@ -37,6 +39,9 @@ pub(crate) enum Command {
     /// Measure skeletons: centeredness, topology, what lies outside
     #[command(after_help = super::evaluate::EXAMPLES)]
     Evaluate(EvaluateArgs),
+    /// List and search the profiles of the catalogues
+    #[command(after_help = super::profiles::EXAMPLES)]
+    Profiles(ProfilesArgs),
     /// Check a mesh: what was mended, labels per source, interface sections
     Inspect(InspectArgs),
 }
@@ -274,8 +279,8 @@ pub(crate) struct OutputArgs {
     #[arg(short, long, value_name = "OUT.step")]
     pub(crate) output: PathBuf,
 
-    /// Cut list (default: beside the STEP file, ending .csv)
-    #[arg(long, value_name = "FILE.csv")]
+    /// Cut list: .csv .json (default: beside the STEP file, ending .csv)
+    #[arg(long, value_name = "FILE")]
     pub(crate) cut_list: Option<PathBuf>,
 
     /// Skeleton: .json .obj .ply .cg .swc (default: beside the STEP file, ending .skeleton.json)
@@ -303,9 +308,31 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "SKELETON", requires = "report")]
     pub(crate) compare: Vec<PathBuf>,
 
+    /// Name of the material, as printed in the cut list
+    #[arg(long, value_name = "NAME", default_value = "steel")]
+    pub(crate) material: String,
+
+    /// Lay the pieces into stock bars of this length, mm
+    #[arg(long, value_name = "MM")]
+    pub(crate) stock_length: Option<f64>,
+
+    /// Width of a saw cut, mm
+    #[arg(long, value_name = "MM", default_value_t = 2.0, requires = "stock_length")]
+    pub(crate) kerf: f64,
+
     /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
     #[arg(long, value_name = "KG/M3", default_value_t = 7850.0)]
     pub(crate) density: f64,
+}
+
+impl OutputArgs {
+    pub(crate) fn cut_list_params(&self) -> CutListParams {
+        CutListParams {
+            material: self.material.clone(),
+            density: self.density,
+            stock: self.stock_length.map(|length_mm| Stock { length_mm, kerf_mm: self.kerf }),
+        }
+    }
 }
 
 impl InputArgs {

@@ -6,6 +6,7 @@ mod exit;
 mod export;
 mod inspect;
 mod look;
+mod profiles;
 mod progress;
 mod reconstruct;
 mod show;
@@ -39,6 +40,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Reconstruct(args) => reconstruct::run(args, &cli.global, &mut progress),
         Command::Skeleton(args) => skeleton::run(args, &cli.global, &mut progress),
         Command::Evaluate(args) => evaluate::run(args, &cli.global, &mut progress),
+        Command::Profiles(args) => profiles::run(args),
         Command::Inspect(args) => inspect::run(args, &cli.global, &mut progress),
     };
     progress.finish();

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use beamwright::output::assembly::{Assembly, assembly};
+use beamwright::output::cut_list::CutList;
 use beamwright::output::sections::SectionFormat;
 use beamwright::output::summary::Summary;
-use beamwright::output::{OutputFiles, cut_list, sections, step};
+use beamwright::output::{OutputFiles, sections, step};
 use beamwright::pipeline::{self, Outcome};
 use beamwright::skeleton_file;
 
@@ -22,6 +23,7 @@ pub(crate) fn run(
     global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
+    args.output.cut_list_params().stock.map_or(Ok(()), |s| s.check()).map_err(Failure::usage)?;
     let targets = Targets::new(args)?;
     let mut settings = args.input.settings();
     settings.skeleton = (&args.march).into();
@@ -51,6 +53,7 @@ pub(crate) fn run(
 struct Targets {
     step: PathBuf,
     cut_list: PathBuf,
+    cut_list_format: CutListFormat,
     skeleton: PathBuf,
     skeleton_format: skeleton_file::Format,
     sections: Option<(PathBuf, SectionFormat)>,
@@ -86,12 +89,32 @@ impl Targets {
         Ok(Self {
             skeleton_format: skeleton_format(&skeleton)?,
             step,
+            cut_list_format: cut_list_format(&cut_list)?,
             cut_list,
             skeleton,
             sections,
             exports,
             looks,
         })
+    }
+}
+
+/// How the cut list is written.
+#[derive(Clone, Copy)]
+enum CutListFormat {
+    Csv,
+    Json,
+}
+
+fn cut_list_format(path: &Path) -> Result<CutListFormat, Failure> {
+    let is = |e: &str| path.extension().is_some_and(|x| x.eq_ignore_ascii_case(e));
+    match (is("csv"), is("json")) {
+        (true, _) => Ok(CutListFormat::Csv),
+        (_, true) => Ok(CutListFormat::Json),
+        _ => Err(Failure::usage(format!(
+            "the cut list {} must end in .csv or .json",
+            path.display()
+        ))),
     }
 }
 
@@ -110,13 +133,18 @@ fn written(
     summary: &Summary,
     document: &step::Document,
 ) -> Result<OutputFiles, Failure> {
-    let rows = cut_list::rows(&outcome.frame, args.output.density);
+    let list = CutList::new(&outcome.frame, &outcome.joints, &args.output.cut_list_params());
     let mut files = OutputFiles::default();
     files
         .add(&targets.step, |mut out| {
             step::write(document, &mut out).map_err(|e| std::io::Error::other(e.to_string()))
         })
-        .and_then(|()| files.add(&targets.cut_list, |out| cut_list::write_csv(&rows, out)))
+        .and_then(|()| {
+            files.add(&targets.cut_list, |out| match targets.cut_list_format {
+                CutListFormat::Csv => list.write_csv(out),
+                CutListFormat::Json => list.write_json(out),
+            })
+        })
         .and_then(|()| {
             files.add(&targets.skeleton, |mut out| {
                 skeleton_file::write(&outcome.skeleton, targets.skeleton_format, &mut out)

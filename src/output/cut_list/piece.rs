@@ -1,0 +1,150 @@
+//! One kind of piece: beams of one profile that are cut alike.
+
+use serde::Serialize;
+
+use super::CutListParams;
+use crate::frame::{Beam, Frame};
+use crate::joint::{CutBeam, Joints};
+use crate::output::assembly::mark;
+use crate::section::properties::{Contours, signed_area};
+
+/// Lengths that differ by less are one length: a saw is set to a tenth of a millimetre.
+const SAME_LENGTH: f64 = 0.1;
+
+/// Angles that differ by less are one angle, degrees: a saw is set to a tenth of a degree.
+const SAME_ANGLE: f64 = 0.1;
+
+/// Points on a quarter of a curved outline of a tapered beam: its area is right to 0.1 %.
+const PER_QUARTER: usize = 16;
+
+/// A kind of piece. Lengths in mm, angles in degrees.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Piece {
+    /// Its own mark: `P01`.
+    pub piece: String,
+    /// Marks of the beams that are cut like this, as in the STEP file.
+    pub marks: Vec<String>,
+    /// How many of them there are.
+    pub quantity: usize,
+    /// Profile, such as `CHS 60.3x4`.
+    pub profile: String,
+    /// Family of the profile.
+    pub family: String,
+    /// Standard of the profile; empty for one made to measure.
+    pub standard: String,
+    /// Material.
+    pub material: String,
+    /// Length to saw off a bar, from the farthest corner to the farthest.
+    pub length_mm: f64,
+    /// Length along the axis between the cuts.
+    pub axis_length_mm: f64,
+    /// Cut at the first end; 0 is square.
+    pub angle_1_deg: f64,
+    /// Cut at the second end.
+    pub angle_2_deg: f64,
+    /// Turn of the second cut against the first about the axis; 0 where both lean the same way.
+    pub twist_deg: f64,
+    /// Area of the profile, mm².
+    pub area_mm2: f64,
+    /// Mass of one, kg.
+    pub unit_mass_kg: f64,
+    /// Mass of all, kg.
+    pub mass_kg: f64,
+    /// Surface to paint of one, m²: its outside without the cuts.
+    pub unit_surface_m2: f64,
+    /// Branches of the skeleton the beams came from.
+    pub branches: Vec<u32>,
+}
+
+/// All kinds of pieces, sorted by profile and length, the longest first.
+pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    for (i, (beam, cut)) in frame.beams.iter().zip(&joints.beams).enumerate() {
+        let one = piece(i, beam, cut, params);
+        match pieces.iter_mut().find(|p| p.is_cut_like(&one)) {
+            Some(same) => {
+                same.marks.extend(one.marks);
+                same.branches.extend(one.branches);
+                same.quantity += 1;
+            }
+            None => pieces.push(one),
+        }
+    }
+    pieces.sort_by(|a, b| {
+        let angles = |p: &Piece| (p.angle_1_deg, p.angle_2_deg);
+        a.profile
+            .cmp(&b.profile)
+            .then(b.length_mm.total_cmp(&a.length_mm))
+            .then(angles(a).0.total_cmp(&angles(b).0))
+            .then(angles(a).1.total_cmp(&angles(b).1))
+    });
+    let digits = pieces.len().to_string().len().max(2);
+    for (i, piece) in pieces.iter_mut().enumerate() {
+        piece.piece = format!("P{:0digits$}", i + 1);
+        piece.mass_kg = rounded(piece.unit_mass_kg * piece.quantity as f64, 6);
+    }
+    pieces
+}
+
+fn piece(index: usize, beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
+    let shape = &beam.shape;
+    let [a, b] = [&cut.ends[0], &cut.ends[1]].map(|e| rounded(e.angle.to_degrees(), 1));
+    let volume = mean_area(beam) * cut.axis_length;
+    Piece {
+        piece: String::new(),
+        marks: vec![mark(index)],
+        quantity: 1,
+        profile: shape.name(),
+        family: shape.profile.family().to_owned(),
+        standard: shape.profile.designation.as_ref().map_or(String::new(), |d| d.standard.clone()),
+        material: params.material.clone(),
+        length_mm: rounded(cut.length, 3),
+        axis_length_mm: rounded(cut.axis_length, 3),
+        // Either end may be called the first: the more oblique one is.
+        angle_1_deg: a.max(b),
+        angle_2_deg: a.min(b),
+        twist_deg: rounded(cut.twist.to_degrees(), 1),
+        area_mm2: rounded(shape.properties.area, 3),
+        unit_mass_kg: rounded(volume * params.density * 1e-9, 6),
+        mass_kg: 0.0,
+        unit_surface_m2: rounded(shape.profile.outer_perimeter() * cut.axis_length * 1e-6, 6),
+        branches: beam.spans().map(|(_, branch)| branch).collect(),
+    }
+}
+
+/// Mean area along a beam, mm²; a cut through the axis takes as much as it leaves.
+fn mean_area(beam: &Beam) -> f64 {
+    if beam.shape.is_constant() {
+        return beam.shape.properties.area;
+    }
+    let area = |region| {
+        let contours = Contours::of_region(region, PER_QUARTER);
+        contours.polygons().enumerate().fold(0.0, |sum, (i, polygon)| {
+            let area = signed_area(polygon).abs();
+            if i == 0 { area } else { sum - area }
+        })
+    };
+    let stations: Vec<(f64, f64)> =
+        beam.shape.stations.iter().map(|s| (s.at, area(&s.region))).collect();
+    // Simpson's rule between two stations of a cone: √A is linear.
+    let between = |a: f64, b: f64| (a + b + (a * b).sqrt()) / 3.0;
+    stations.windows(2).map(|w| (w[1].0 - w[0].0) * between(w[0].1, w[1].1)).sum()
+}
+
+impl Piece {
+    /// Whether one saw setting cuts both.
+    fn is_cut_like(&self, other: &Self) -> bool {
+        let same = |a: f64, b: f64, least: f64| (a - b).abs() < least;
+        self.profile == other.profile
+            && same(self.area_mm2, other.area_mm2, 1e-3 * self.area_mm2)
+            && same(self.length_mm, other.length_mm, SAME_LENGTH)
+            && same(self.angle_1_deg, other.angle_1_deg, SAME_ANGLE)
+            && same(self.angle_2_deg, other.angle_2_deg, SAME_ANGLE)
+            && same(self.twist_deg, other.twist_deg, SAME_ANGLE)
+    }
+}
+
+fn rounded(x: f64, digits: i32) -> f64 {
+    let scale = 10f64.powi(digits);
+    (x * scale).round() / scale
+}

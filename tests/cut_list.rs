@@ -1,0 +1,64 @@
+//! The cut list of the samples: sums that agree with the frame.
+
+use std::path::Path;
+
+use beamwright::joint::JointKind;
+use beamwright::output::cut_list::{CutList, CutListParams, Stock};
+use beamwright::pipeline::{self, Outcome, Settings};
+
+type Outcomes = Result<(), Box<dyn std::error::Error>>;
+
+fn run(sample: &str, joints: JointKind) -> Result<Outcome, pipeline::PipelineError> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples").join(sample);
+    pipeline::run(&path, &Settings { joints, ..Settings::default() }, &mut ())
+}
+
+fn list(outcome: &Outcome, stock: Option<Stock>) -> CutList {
+    let params = CutListParams { material: "=steel".into(), density: 7850.0, stock };
+    CutList::new(&outcome.frame, &outcome.joints, &params)
+}
+
+#[test]
+fn one_bar_is_one_piece_of_its_length_and_mass() -> Outcomes {
+    let list = list(&run("single_bar.obj", JointKind::None)?, None);
+    let [bar] = list.pieces.as_slice() else { panic!("{:?}", list.pieces) };
+    assert_eq!((bar.quantity, bar.piece.as_str()), (1, "P01"));
+    assert!((bar.length_mm - 80.0).abs() < 0.05);
+    // π 4² · 80 mm³ of steel.
+    assert!((bar.mass_kg / (std::f64::consts::PI * 16.0 * 80.0 * 7850e-9) - 1.0).abs() < 0.01);
+    assert!((bar.unit_surface_m2 / (std::f64::consts::TAU * 4.0 * 80.0 * 1e-6) - 1.0).abs() < 0.01);
+    Ok(())
+}
+
+#[test]
+fn every_beam_is_listed_once_and_totals_add_up() -> Outcomes {
+    for sample in ["cantilever.obj", "four_fixings.obj", "quadpod.obj", "y_form.obj"] {
+        let outcome = run(sample, JointKind::Trim)?;
+        let stock = Stock { length_mm: 500.0, kerf_mm: 2.0 };
+        let list = list(&outcome, Some(stock));
+        let mut marks: Vec<&String> = list.pieces.iter().flat_map(|p| &p.marks).collect();
+        marks.sort();
+        marks.dedup();
+        assert_eq!(marks.len(), outcome.frame.beams.len(), "{sample}");
+        assert!(list.pieces.iter().all(|p| p.marks.len() == p.quantity));
+        let mass: f64 = list.pieces.iter().map(|p| p.mass_kg).sum();
+        assert!((list.mass() - mass).abs() < 1e-6 * mass.max(1.0) + 1e-5, "{sample}");
+        let nesting = list.nesting.as_ref().ok_or("asked for")?;
+        let nested: usize = nesting.bars.iter().map(|b| b.pieces.len()).sum();
+        assert_eq!(nested + nesting.too_long.len(), marks.len(), "{sample}");
+    }
+    Ok(())
+}
+
+#[test]
+fn all_lines_of_the_csv_have_the_same_columns_and_no_formula() -> Outcomes {
+    let list = list(&run("y_form.obj", JointKind::Mitre)?, None);
+    let mut text = Vec::new();
+    list.write_csv(&mut text)?;
+    let mut reader = csv::ReaderBuilder::new().from_reader(text.as_slice());
+    let records = reader.records().collect::<Result<Vec<_>, _>>()?;
+    assert_eq!(records.iter().filter(|r| r[0].starts_with('P')).count(), list.pieces.len());
+    assert!(records.iter().flatten().all(|cell| !cell.starts_with('=')));
+    assert!(String::from_utf8(text)?.contains("'=steel"));
+    Ok(())
+}
