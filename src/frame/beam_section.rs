@@ -2,6 +2,8 @@
 
 use nalgebra::{Point2, Point3, Unit, Vector3};
 
+use super::moments::Moments;
+use super::robust::{line, twist, weigh};
 use super::section_at::Section;
 
 /// The axes of a beam: x along it, y and z across.
@@ -46,68 +48,6 @@ impl BeamAxes {
     }
 }
 
-/// Area and second moments of a section in the axes of its beam, about its own centroid.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Moments {
-    /// ∫ dA, mm².
-    pub area: f64,
-    /// ∫ z² dA, mm⁴.
-    pub i_yy: f64,
-    /// ∫ y² dA, mm⁴.
-    pub i_zz: f64,
-    /// ∫ y z dA, mm⁴.
-    pub i_yz: f64,
-}
-
-impl Moments {
-    /// Moments of a polygon about its centroid (Green's theorem); counter-clockwise is positive.
-    pub fn of_polygon(polygon: &[Point2<f64>]) -> Self {
-        let mut m = Self::default();
-        let (mut s_y, mut s_z) = (0.0, 0.0);
-        for (i, p) in polygon.iter().enumerate() {
-            let q = polygon[(i + 1) % polygon.len()];
-            let w = p.x * q.y - q.x * p.y;
-            m.area += w / 2.0;
-            s_y += w * (p.x + q.x) / 6.0;
-            s_z += w * (p.y + q.y) / 6.0;
-            m.i_yy += w * (p.y * p.y + p.y * q.y + q.y * q.y) / 12.0;
-            m.i_zz += w * (p.x * p.x + p.x * q.x + q.x * q.x) / 12.0;
-            m.i_yz += w * (p.x * q.y + 2.0 * (p.x * p.y + q.x * q.y) + q.x * p.y) / 24.0;
-        }
-        if m.area != 0.0 {
-            m.i_yy -= s_z * s_z / m.area;
-            m.i_zz -= s_y * s_y / m.area;
-            m.i_yz -= s_y * s_z / m.area;
-        }
-        m
-    }
-
-    /// Σ of parts, each times its factor; a mean where the factors add up to 1.
-    pub(crate) fn mean(parts: impl Iterator<Item = (f64, Self)>) -> Self {
-        parts.fold(Self::default(), |s, (f, m)| Self {
-            area: s.area + f * m.area,
-            i_yy: s.i_yy + f * m.i_yy,
-            i_zz: s.i_zz + f * m.i_zz,
-            i_yz: s.i_yz + f * m.i_yz,
-        })
-    }
-
-    /// Radius of the disc of equal area, mm.
-    pub fn radius(&self) -> f64 {
-        (self.area.max(0.0) / std::f64::consts::PI).sqrt()
-    }
-
-    /// Largest and smallest second moment I₁ ≥ I₂, mm⁴, and the angle from y to the axis about
-    /// which it is largest, rad in (−π/2, π/2].
-    pub fn principal(&self) -> (f64, f64, f64) {
-        let mean = 0.5 * (self.i_yy + self.i_zz);
-        let half = 0.5 * (self.i_yy - self.i_zz);
-        let spread = half.hypot(self.i_yz);
-        // I(φ) = mean + half cos 2φ − I_yz sin 2φ is largest there.
-        (mean + spread, mean - spread, 0.5 * (-self.i_yz).atan2(half))
-    }
-}
-
 /// A section of the mesh seen along a beam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeamStation {
@@ -141,13 +81,10 @@ pub struct BeamSection {
     pub mean: Moments,
     /// Values at both ends, from straight lines through the weighted sections.
     pub ends: [Moments; 2],
+    /// Turn of the principal axes from the first end to the second, rad; 0 where there is none to
+    /// speak of.
+    pub twist: f64,
 }
-
-/// Departure of the area from its straight line that halves the weight of a section: some times
-/// the median departure, within bounds. Fillets add tenths to a clean strut, the steps of voxel
-/// surfaces some hundredths to all of one.
-const SPREAD: f64 = 3.0;
-const SWELLING: [f64; 2] = [0.02, 0.12];
 
 /// Part of the length by which a section may lie beyond the ends of its beam; farther, it belongs
 /// to the neighbour.
@@ -180,9 +117,18 @@ impl BeamSection {
             stations.retain(own);
         }
         weigh(&mut stations);
-        let mean = mean(&stations);
-        let ends = if stations.is_empty() { [mean; 2] } else { ends(&stations, &mean) };
-        Self { stations, mean, ends }
+        if stations.is_empty() {
+            return Self::default();
+        }
+        let twist = twist(&stations);
+        let mean = mean(&stations, twist);
+        let ends = ends(&stations, &mean, twist);
+        Self { stations, mean, ends, twist }
+    }
+
+    /// Turn of the principal axes at a part of the length against those of the mean, rad.
+    pub fn turn_at(&self, at: f64) -> f64 {
+        turn_at(self.twist, at)
     }
 
     /// Number of sections that are much larger or smaller than their neighbours.
@@ -191,130 +137,96 @@ impl BeamSection {
     }
 }
 
-/// Iteratively reweighted straight lines through the areas and the largest second moments.
-fn weigh(stations: &mut [BeamStation]) {
-    if stations.len() < 4 {
-        return;
-    }
-    // Begin from the medians: one swollen end must not tilt the first lines.
-    let sizes = [size_of_area, size_of_moment];
-    let medians = sizes.map(|size| median(stations.iter().map(|s| size(&s.moments)).collect()));
-    let off = |s: &BeamStation, expected: [f64; 2]| {
-        let part = |k: usize| (sizes[k](&s.moments) / expected[k] - 1.0).abs();
-        part(0).max(part(1))
-    };
-    let mut offs: Vec<f64> = stations.iter().map(|s| off(s, medians)).collect();
-    weigh_by(stations, &offs, 0.05);
-    for _ in 0..4 {
-        let lines = sizes.map(|size| line(stations, size));
-        let expected = |s: &BeamStation| {
-            [0, 1].map(|k| {
-                let [at_start, at_end] = lines[k];
-                (at_start + (at_end - at_start) * s.at).max(0.1 * medians[k])
-            })
-        };
-        offs = stations.iter().map(|s| off(s, expected(s))).collect();
-        weigh_by(stations, &offs, 0.0);
-    }
+fn turn_at(twist: f64, at: f64) -> f64 {
+    twist * (at - 0.5)
 }
 
-fn size_of_area(m: &Moments) -> f64 {
-    m.area
-}
-
-/// √I_1, which grows with a section as its area does.
-fn size_of_moment(m: &Moments) -> f64 {
-    m.principal().0.max(0.0).sqrt()
-}
-
-fn weigh_by(stations: &mut [BeamStation], offs: &[f64], least: f64) {
-    let [low, high] = SWELLING;
-    let scale = (SPREAD * median(offs.to_vec())).clamp(low, high);
-    for (s, off) in stations.iter_mut().zip(offs) {
-        s.weight = (1.0 / (1.0 + (off / scale).powi(2))).max(least);
-    }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
-fn mean(stations: &[BeamStation]) -> Moments {
+/// Weighted means, in the axes that turn along with a twisted beam.
+fn mean(stations: &[BeamStation], twist: f64) -> Moments {
     let total: f64 = stations.iter().map(|s| s.weight).sum();
-    Moments::mean(stations.iter().map(|s| (s.weight / total, s.moments)))
+    let untwisted = |s: &BeamStation| s.moments.turned(-turn_at(twist, s.at));
+    Moments::mean(stations.iter().map(|s| (s.weight / total, untwisted(s))))
 }
 
-/// End values by straight lines; never below a tenth of the mean.
-fn ends(stations: &[BeamStation], mean: &Moments) -> [Moments; 2] {
-    let area = line(stations, size_of_area);
-    let yy = line(stations, |m| m.i_yy);
-    let zz = line(stations, |m| m.i_zz);
-    let yz = line(stations, |m| m.i_yz);
-    [0, 1].map(|e| Moments {
-        area: area[e].max(0.1 * mean.area),
-        i_yy: yy[e].max(0.01 * mean.i_yy),
-        i_zz: zz[e].max(0.01 * mean.i_zz),
-        i_yz: yz[e],
+/// End values by straight lines through √A, which is straight in a taper, and the moments in
+/// squares of the area; never below a tenth of the mean.
+fn ends(stations: &[BeamStation], mean: &Moments, twist: f64) -> [Moments; 2] {
+    let side = line(stations, |s| s.moments.area.sqrt());
+    let part = |of: fn(&Moments) -> f64| {
+        line(stations, move |s| {
+            of(&s.moments.turned(-turn_at(twist, s.at))) / s.moments.area.powi(2)
+        })
+    };
+    let (yy, zz, yz) = (part(|m| m.i_yy), part(|m| m.i_zz), part(|m| m.i_yz));
+    [0, 1].map(|e| {
+        let area = side[e].max(0.0).powi(2).max(0.1 * mean.area);
+        let squared = area * area;
+        let least = 0.1 * squared / mean.area.powi(2);
+        Moments {
+            area,
+            i_yy: (yy[e] * squared).max(least * mean.i_yy),
+            i_zz: (zz[e] * squared).max(least * mean.i_zz),
+            i_yz: yz[e] * squared,
+        }
+        .turned(turn_at(twist, e as f64))
     })
-}
-
-/// Values at 0 and 1 of the weighted straight line through a measure of the sections.
-fn line(stations: &[BeamStation], measure: impl Fn(&Moments) -> f64) -> [f64; 2] {
-    let (mut s0, mut s1, mut s2, mut t0, mut t1) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for s in stations {
-        let (w, x, y) = (s.weight, s.at - 0.5, measure(&s.moments));
-        (s0, s1, s2) = (s0 + w, s1 + w * x, s2 + w * x * x);
-        (t0, t1) = (t0 + w * y, t1 + w * x * y);
-    }
-    let det = s0 * s2 - s1 * s1;
-    let slope = if det > 1e-6 * s0 * s0 { (s0 * t1 - s1 * t0) / det } else { 0.0 };
-    let middle = (t0 - slope * s1) / s0;
-    [middle - 0.5 * slope, middle + 0.5 * slope]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn rectangle(b: f64, h: f64, turn: f64) -> Vec<Point2<f64>> {
-        let (sin, cos) = turn.sin_cos();
-        [(-b, -h), (b, -h), (b, h), (-b, h)]
-            .map(|(y, z)| Point2::new((y * cos - z * sin) / 2.0, (y * sin + z * cos) / 2.0))
-            .to_vec()
-    }
-
     #[test]
-    fn rectangle_has_b_h_cubed_over_12() {
-        let m = Moments::of_polygon(&rectangle(6.0, 10.0, 0.0));
-        assert!((m.area - 60.0).abs() < 1e-9);
-        assert!((m.i_yy - 6.0 * 1000.0 / 12.0).abs() < 1e-9);
-        assert!((m.i_zz - 10.0 * 216.0 / 12.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn the_principal_angle_turns_with_the_section() {
-        for turn in [-1.2, -0.3, 0.0, 0.4, 1.5] {
-            let (i_1, i_2, angle) = Moments::of_polygon(&rectangle(6.0, 10.0, turn)).principal();
-            assert!((i_1 - 500.0).abs() < 1e-9 && (i_2 - 180.0).abs() < 1e-9);
-            assert!((angle - turn).sin().abs() < 1e-12, "{turn}: {angle}");
+    fn ends_of_a_cone_are_those_of_its_radii() {
+        let mut stations: Vec<_> = (1..10)
+            .map(|i| {
+                let at = f64::from(i) / 10.0;
+                let r = 7.0 - 3.0 * at;
+                let i = std::f64::consts::PI * r.powi(4) / 4.0;
+                let area = std::f64::consts::PI * r * r;
+                station(at, Moments { area, i_yy: i, i_zz: i, i_yz: 0.0 })
+            })
+            .collect();
+        weigh(&mut stations);
+        let ends = ends(&stations, &mean(&stations, 0.0), 0.0);
+        for (end, radius) in ends.iter().zip([7.0, 4.0]) {
+            assert!((end.radius() - radius).abs() < 1e-6, "{}", end.radius());
+            assert!((end.i_yy - std::f64::consts::PI * f64::powi(radius, 4) / 4.0).abs() < 1e-3);
         }
     }
 
     #[test]
+    fn the_mean_of_a_twisted_bar_is_that_of_its_section() {
+        let flat = Moments { area: 60.0, i_yy: 500.0, i_zz: 180.0, i_yz: 0.0 };
+        for total in [-1.8, 0.5, 2.5] {
+            let mut stations: Vec<_> = (0..21)
+                .map(|i| f64::from(i) / 20.0)
+                .map(|at| station(at, flat.turned(0.3 + total * (at - 0.5))))
+                .collect();
+            weigh(&mut stations);
+            let found = twist(&stations);
+            assert!((found - total).abs() < 1e-9, "{found} for {total}");
+            let (i_1, i_2, angle) = mean(&stations, found).principal();
+            assert!((i_1 - 500.0).abs() < 1e-6 && (i_2 - 180.0).abs() < 1e-6);
+            assert!((angle - 0.3).abs() < 1e-9, "{angle}");
+        }
+    }
+
+    fn station(at: f64, moments: Moments) -> BeamStation {
+        BeamStation { point: 0, at, contour: Vec::new(), moments, off_axis: 0.0, weight: 1.0 }
+    }
+
+    #[test]
     fn swollen_ends_do_not_change_the_mean() {
-        let station = |at: f64, radius: f64| BeamStation {
-            point: 0,
-            at,
-            contour: Vec::new(),
-            moments: Moments { area: std::f64::consts::PI * radius * radius, ..Moments::default() },
-            off_axis: 0.0,
-            weight: 1.0,
+        let disc = |radius: f64| {
+            let i = std::f64::consts::PI * radius.powi(4) / 4.0;
+            let area = std::f64::consts::PI * radius * radius;
+            Moments { area, i_yy: i, i_zz: i, i_yz: 0.0 }
         };
         let mut stations: Vec<_> = (0..11)
-            .map(|i| station(f64::from(i) / 10.0, if i % 10 == 0 { 3.0 } else { 2.0 }))
+            .map(|i| station(f64::from(i) / 10.0, disc(if i % 10 == 0 { 3.0 } else { 2.0 })))
             .collect();
         weigh(&mut stations);
-        assert!((mean(&stations).radius() - 2.0).abs() < 0.02);
+        assert!((mean(&stations, 0.0).radius() - 2.0).abs() < 0.02);
     }
 }

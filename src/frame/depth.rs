@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::beam_section::Moments;
+use super::moments::Moments;
 use super::section_at::Section;
 
 /// The ellipse of a section.

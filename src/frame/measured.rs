@@ -1,6 +1,6 @@
 //! The mean section of a beam, measured on the sections that are its own.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Rotation2};
 
 use super::beam_section::{BeamSection, BeamStation};
 use crate::section::MatchTarget;
@@ -38,7 +38,10 @@ fn mean_contour(section: &BeamSection) -> Option<Vec<Point2<f64>>> {
         .stations
         .iter()
         .filter(|s| all_swollen || is_clean(s))
-        .map(|s| s.contour.clone())
+        .map(|s| {
+            let untwist = Rotation2::new(-section.turn_at(s.at));
+            s.contour.iter().map(|p| untwist * p).collect()
+        })
         .collect();
     if let Ok(outline) = average_outline(&contours, OUTLINE_POINTS) {
         return Some(outline.points().to_vec());

@@ -114,6 +114,28 @@ impl Outline {
         }
     }
 
+    /// The outline turned about the origin by an angle, rad; unchanged by an angle of 0.
+    pub fn turned(&self, angle: f64) -> Self {
+        if angle == 0.0 {
+            return self.clone();
+        }
+        let rotation = nalgebra::Rotation2::new(angle);
+        let about = |p: &Point2<f64>| rotation * p;
+        match self {
+            Self::Circle { centre, radius } => {
+                Self::Circle { centre: about(centre), radius: *radius }
+            }
+            Self::Ellipse { centre, half_axes, turn } => {
+                Self::Ellipse { centre: about(centre), half_axes: *half_axes, turn: turn + angle }
+            }
+            Self::Path(path) => Self::Path(Path {
+                start: about(&path.start),
+                segments: path.segments.iter().map(|s| s.mapped(about)).collect(),
+            }),
+            Self::Freeform(curve) => Self::Freeform(curve.turned(angle)),
+        }
+    }
+
     /// A counter-clockwise polygon on the curve.
     ///
     /// * `per_quarter`: corners for each quarter turn of an arc, and for each span of a spline.
@@ -174,6 +196,14 @@ impl Path {
 }
 
 impl Segment {
+    /// The piece with its end mapped by a rigid motion.
+    fn mapped(&self, map: impl Fn(&Point2<f64>) -> Point2<f64>) -> Self {
+        match self {
+            Self::Line { to } => Self::Line { to: map(to) },
+            Self::Arc { to, sweep } => Self::Arc { to: map(to), sweep: *sweep },
+        }
+    }
+
     /// Where the piece ends.
     pub fn end(&self) -> Point2<f64> {
         match *self {
@@ -186,6 +216,12 @@ impl Region {
     /// A region without holes.
     pub fn solid(outer: Outline) -> Self {
         Self { outer, holes: Vec::new() }
+    }
+
+    /// The region turned about the origin by an angle, rad.
+    pub fn turned(&self, angle: f64) -> Self {
+        let turned = |outline: &Outline| outline.turned(angle);
+        Self { outer: turned(&self.outer), holes: self.holes.iter().map(turned).collect() }
     }
 
     /// All pieces with the material on their left: counter-clockwise outside, clockwise at holes.
