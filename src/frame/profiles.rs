@@ -63,7 +63,7 @@ pub fn match_profiles(
         }
     }
     for i in (0..targets.len()).filter(|&i| targets[i].is_none()) {
-        frame.beams[i].shape = unmeasured(frame, i);
+        frame.beams[i].shape = unmeasured(frame, i, params, catalogue);
     }
     let mut findings = poor_matches(frame);
     if params.choice == ProfileChoice::Freeform {
@@ -177,19 +177,33 @@ fn along(section: &BeamSection) -> Vec<(f64, Moments)> {
     places
 }
 
-/// A round bar for a beam without sections of its own (a stub in a joint): as thick as the beams
-/// it joins.
-fn unmeasured(frame: &Frame, index: usize) -> BeamShape {
-    let ends = frame.beams[index].ends;
-    let areas: Vec<f64> = frame
-        .beams
-        .iter()
-        .filter(|b| b.ends.iter().any(|e| ends.contains(e)) && b.section.mean.area > 0.0)
-        .map(|b| b.section.mean.area)
-        .collect();
-    let own = frame.beams[index].assumed_area;
-    let area = if areas.is_empty() { own } else { areas.iter().sum::<f64>() / areas.len() as f64 };
-    BeamShape::unmatched(area)
+/// The shape of a beam without sections of its own (a stub in a joint): that of the beam it goes on
+/// as, else of the thinnest it meets; where none is measured, of a round bar of the assumed area.
+fn unmeasured(
+    frame: &Frame,
+    index: usize,
+    params: &ProfileParams,
+    catalogue: &Catalogue,
+) -> BeamShape {
+    let own = &frame.beams[index];
+    let meets = |b: &&Beam| b.ends.iter().any(|e| own.ends.contains(e)) && b.measured.is_some();
+    let rank = |b: &Beam| (b.branch != own.branch, b.shape.properties.area);
+    let neighbour = frame.beams.iter().filter(meets).min_by(|a, b| {
+        let (a, b) = (rank(a), rank(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    if let Some(neighbour) = neighbour {
+        let profile = neighbour.shape.profile.clone();
+        let shape = BeamShape::assumed(profile, neighbour.shape.properties);
+        let strong = neighbour.axes.rolled(neighbour.shape.roll).y;
+        let across = own.axes.across(&strong);
+        return BeamShape { roll: across.y.atan2(across.x), ..shape };
+    }
+    let bar = BeamShape::unmatched(own.assumed_area);
+    let target = MatchTarget::of_properties(&bar.properties);
+    match_profile(&target, &params.choice, params.mode, catalogue)
+        .map(|m| BeamShape::assumed(m.profile, m.properties))
+        .unwrap_or(bar)
 }
 
 /// Names the beams whose contour no smooth outline follows.

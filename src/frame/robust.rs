@@ -18,7 +18,7 @@ pub(super) fn weigh(stations: &mut [BeamStation]) {
     }
     // Begin from the medians: one swollen end must not tilt the first lines.
     let sizes = [size_of_area, size_of_moment];
-    let medians = sizes.map(|size| median(stations.iter().map(|s| size(s)).collect()));
+    let medians = sizes.map(|size| median(stations.iter().map(size).collect()));
     // In parts of the area: twice those of a side.
     let off = |s: &BeamStation, expected: [f64; 2]| {
         let part = |k: usize| 2.0 * (sizes[k](s) / expected[k] - 1.0).abs();
