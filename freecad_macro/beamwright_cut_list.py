@@ -64,6 +64,9 @@ class CutListRow:
 
 def split_profile(profile: str) -> tuple[str, str]:
     """Family and size of a profile: ``("CHS", "60.3x4")``."""
+    if " " in profile:
+        family, _, size = profile.partition(" ")
+        return family, size
     match = re.match(r"^(\D*?)\s*(\d.*)$", profile)
     return (match.group(1), match.group(2)) if match else (profile, "")
 
@@ -147,6 +150,9 @@ SHEET_COLUMNS = (
     "Branch",
 )
 
+#: Of the columns, pixels.
+WIDTHS = (110, 190, 80, 100, 90, 85, 85, 85, 105, 75, 85, 60)
+
 LEGEND = (
     "Length: of one piece along its axis, cuts included",
     "CutAngle1, CutAngle2: at the two ends; empty where the run gave none and cuts are square",
@@ -224,8 +230,9 @@ def fill_sheet(sheet: Any, rows: Iterable[CutListRow], parent: str, beams: Seque
     sheet.set(cell(last, weight), f"{sum(r.mass * r.quantity for r in rows):.6f} kg")
     for i, text in enumerate(LEGEND):
         sheet.set(cell(last + 2 + i, 1), text_cell(text))
+        sheet.mergeCells(f"{cell(last + 2 + i, 1)}:{cell(last + 2 + i, len(SHEET_COLUMNS) - 1)}")
     end = cell(0, len(SHEET_COLUMNS) - 1)
     sheet.setStyle(f"A1:{end}", "bold")
     sheet.setStyle(f"A{last + 1}:{cell(last, len(SHEET_COLUMNS) - 1)}", "bold")
-    for letter, width in (("A", 130), ("B", 210), ("C", 90), ("D", 110), ("E", 90), ("F", 90)):
-        sheet.setColumnWidth(letter, width)
+    for column, width in enumerate(WIDTHS):
+        sheet.setColumnWidth(cell(0, column)[:-1], width)

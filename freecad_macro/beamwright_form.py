@@ -58,6 +58,19 @@ class Form:
             label.setMinimumWidth(60)
         self.log.setMinimumWidth(60)
 
+    def widen_dock(self) -> None:
+        """Gives the dock the panel stands in the width the panel needs; never makes it narrower."""
+        dock = self.form.parentWidget()
+        while dock is not None and not isinstance(dock, QtGui.QDockWidget):
+            dock = dock.parentWidget()
+        if dock is None:
+            return
+        frame = dock.width() - self.form.visibleRegion().boundingRect().width()
+        wanted = self.form.minimumSizeHint().width() + frame
+        if dock.width() < wanted:
+            window = dock.parentWidget()
+            window.resizeDocks([dock], [wanted], QtCore.Qt.Orientation.Horizontal)
+
     def _build_input(self) -> Any:
         box, grid = group_box("Mesh")
         self.from_document = QtGui.QRadioButton("in the document")

@@ -8,6 +8,7 @@ import shutil
 import tempfile
 from typing import Any
 
+import beamwright_macro
 import FreeCAD as App
 import FreeCADGui as Gui
 from beamwright_choices import Choices
@@ -21,7 +22,6 @@ from beamwright_input import (
     prepare,
 )
 from beamwright_macro import (
-    MANY_BEAMS,
     keep_files,
     outputs_of,
     settings_for,
@@ -52,6 +52,8 @@ def show() -> Any:
         App.newDocument()
     _open_panel = Panel(App.ActiveDocument)
     Gui.Control.showDialog(_open_panel)
+    # The dock has its new content only after FreeCAD's event loop has run.
+    QtCore.QTimer.singleShot(0, _open_panel.widen_dock)
     return _open_panel
 
 
@@ -176,7 +178,7 @@ class Panel(Choices):
 
     def _take_in(self, outcome: Outcome) -> None:
         style = SOLIDS
-        if outcome.beams > MANY_BEAMS:
+        if outcome.beams > beamwright_macro.MANY_BEAMS:
             style = self.ask_style(outcome.beams)
             if not style:
                 self._fail(CANCELLED)
@@ -243,7 +245,8 @@ class Panel(Choices):
         self.bar.setValue(0)
         self._say(text)
         self.message.setText(f'<b style="color:#b00000">{html(text)}</b>')
-        App.Console.PrintError(f"Beamwright: {text}\n")
+        # As an error it would bring up the report view, which takes the panel's room.
+        App.Console.PrintMessage(f"Beamwright: {text}\n")
 
     def _in_words(self, message: str) -> str:
         return self._job.in_words(message) if self._job is not None else message

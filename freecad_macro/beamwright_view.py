@@ -10,6 +10,7 @@ import FreeCADGui as Gui
 from beamwright_input import triangles_of
 from beamwright_mesh import FlatRegions, Point, distance_to_triangle
 from pivy import coin
+from PySide import QtCore
 
 
 class FacePicker:
@@ -133,11 +134,16 @@ class FacePicker:
         info = self._view.getObjectInfo(tuple(event.getPosition().getValue()))
         if not info or self._of_info(info) is None:
             return
-        # Otherwise FreeCAD would select the mesh and paint all of it green.
         node.setHandled()
+        # FreeCAD selects the mesh nevertheless and paints all of it green.
+        QtCore.QTimer.singleShot(0, self._deselect)
         if event.getState() == coin.SoMouseButtonEvent.DOWN:
             place = (info["x"], info["y"], info["z"])
             self.pick(place, bool(event.wasShiftDown()), bool(event.wasCtrlDown()))
+
+    def _deselect(self) -> None:
+        for obj in self._objects.values():
+            Gui.Selection.removeSelection(obj)
 
     def _of_info(self, info: dict[str, Any]) -> str | None:
         parts = [str(info.get("Object", "")), *str(info.get("Component", "")).split(".")]
@@ -158,14 +164,19 @@ class Marker:
         self._node: Any = None
         self._scene: Any = None
 
+    @property
+    def is_shown(self) -> bool:
+        """Whether a ball is in a view."""
+        return self._node is not None
+
     def show(self, view: Any, place: Point, size: float) -> None:
         """Puts the ball, of ``size`` mm, at a place and turns the camera to it."""
         self.clear()
-        self._node = coin.SoSeparator()
+        # Drawn over everything else: the place may be inside the part.
+        self._node = coin.SoAnnotation()
         material = coin.SoMaterial()
         material.diffuseColor = (0.85, 0.05, 0.05)
         material.emissiveColor = (0.35, 0.0, 0.0)
-        material.transparency = 0.35
         shift = coin.SoTranslation()
         shift.translation = tuple(place)
         ball = coin.SoSphere()

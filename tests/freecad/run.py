@@ -37,7 +37,8 @@ def main(script: str, artefacts: str) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="freecad-home-") as home:
         environment, verdict = _environment(Path(home), folder), Path(home) / "verdict"
-        command = [*_freecad(script, Path(home)), str(HERE / script)]
+        environment["BEAMWRIGHT_SCRIPT"] = Path(script).stem
+        command = [*_freecad(script, Path(home)), str(HERE / "inside.py")]
         log = folder / (Path(script).stem + ".log")
         code = _run(command, environment, log)
         passed = verdict.is_file() and verdict.read_text() == "passed"
@@ -56,7 +57,7 @@ def _environment(home: Path, artefacts: Path) -> dict[str, str]:
         "HOME": str(home),
         "TMPDIR": str(temporary),
         "XDG_RUNTIME_DIR": str(home),
-        "PYTHONPATH": f"{HERE}{os.pathsep}{HERE.parents[1] / 'freecad_macro'}",
+        "BEAMWRIGHT_ROOT": str(HERE.parents[1]),
         "PYTHONDONTWRITEBYTECODE": "1",
         "BEAMWRIGHT_ARTEFACTS": str(artefacts),
         "BEAMWRIGHT_VERDICT": str(home / "verdict"),
@@ -70,7 +71,7 @@ def _freecad(script: str, home: Path) -> list[str]:
         return ["freecadcmd"]
     settings = home / "user.cfg"
     settings.write_text(USER_CFG)
-    screen = "-screen 0 1400x900x24"
+    screen = "-screen 0 1600x1000x24"
     return ["xvfb-run", "-a", "-s", screen, "freecad", "-u", str(settings)]
 
 

@@ -13,20 +13,21 @@ import traceback
 from pathlib import Path
 from typing import Any, Callable, Iterator
 
-ROOT = Path(__file__).resolve().parents[2]
+import FreeCAD as App
+import Mesh
+
+ROOT = Path(os.environ["BEAMWRIGHT_ROOT"])
 MACRO = ROOT / "freecad_macro"
-sys.path.insert(0, str(MACRO))
-
-import FreeCAD as App  # noqa: E402
-import Mesh  # noqa: E402
-
 SAMPLES = ROOT / "samples"
 ARTEFACTS = Path(os.environ["BEAMWRIGHT_ARTEFACTS"])
 PROGRAM = os.environ["BEAMWRIGHT"]
 
 
-def main(*checks: Callable[[], None]) -> None:
-    """Runs the checks one after the other, tells what failed, and ends FreeCAD."""
+def main(*checks: Callable[[], None], clean_up: Callable[[], None] = lambda: None) -> None:
+    """Runs the checks one after the other, tells what failed, and ends FreeCAD.
+
+    * ``clean_up``: after each check, passed or not
+    """
     failed = []
     for check in checks:
         begin = time.monotonic()
@@ -36,6 +37,7 @@ def main(*checks: Callable[[], None]) -> None:
             failed.append(check.__name__)
             traceback.print_exc()
         finally:
+            clean_up()
             for name in list(App.listDocuments()):
                 App.closeDocument(name)
         verdict = "FAILED" if check.__name__ in failed[-1:] else "ok"
