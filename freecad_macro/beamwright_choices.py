@@ -244,7 +244,7 @@ class Choices(Form):
 
     def _show_picked(self) -> None:
         count = self.picker.count
-        hint = "Click flat faces of the mesh; Shift+click takes them away."
+        hint = "Click flat faces; Shift takes them away, Ctrl stops at what is marked."
         self.pick_text.setText(f"{count} facets marked. {hint}" if count else hint)
 
     def _toggle_pick(self, on: bool) -> None:

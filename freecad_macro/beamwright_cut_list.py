@@ -151,7 +151,7 @@ SHEET_COLUMNS = (
 )
 
 #: Of the columns, pixels.
-WIDTHS = (110, 190, 80, 100, 90, 85, 85, 85, 105, 75, 85, 60)
+WIDTHS = (110, 190, 80, 100, 90, 85, 85, 85, 105, 75, 95, 60)
 
 LEGEND = (
     "Length: of one piece along its axis, cuts included",
@@ -184,7 +184,7 @@ def sheet_rows(
                 _with_unit(row.angle_2, 2, "deg"),
                 f"{row.mass:.6f} kg",
                 str(row.quantity),
-                _with_unit(row.area, 3, "mm^2"),
+                _with_unit(row.area, 2, "mm^2"),
                 text_cell(row.branch),
             ]
         )

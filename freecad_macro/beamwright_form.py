@@ -65,8 +65,9 @@ class Form:
             dock = dock.parentWidget()
         if dock is None:
             return
-        frame = dock.width() - self.form.visibleRegion().boundingRect().width()
-        wanted = self.form.minimumSizeHint().width() + frame
+        margin = self.form.mapTo(dock, QtCore.QPoint(0, 0)).x()
+        bar = dock.style().pixelMetric(QtGui.QStyle.PixelMetric.PM_ScrollBarExtent)
+        wanted = self.form.minimumSizeHint().width() + 2 * margin + bar
         if dock.width() < wanted:
             window = dock.parentWidget()
             window.resizeDocks([dock], [wanted], QtCore.Qt.Orientation.Horizontal)

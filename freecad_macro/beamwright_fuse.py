@@ -49,7 +49,7 @@ def fuse(shapes: Sequence[Any]) -> tuple[Any | None, str]:
             continue
         reason = why_unsound(fused, shapes)
         if not reason:
-            return fused, f"{len(shapes)} solids fused to one of {fused.Volume:.0f} mm^3"
+            return fused, f"{len(shapes)} solids fused to one of {fused.Volume:.0f} mm³"
     return None, f"the beams stay separate solids: OCCT cannot fuse them soundly ({reason})"
 
 
@@ -61,12 +61,12 @@ def why_unsound(fused: Any, shapes: Sequence[Any]) -> str:
         return f"the fused shape has {len(fused.Solids)} solids"
     volumes = [s.Volume for s in shapes]
     if not max(volumes) * (1 - VOLUME_TOLERANCE) <= fused.Volume:
-        return f"its volume of {fused.Volume:.1f} mm^3 is below that of one beam"
+        return f"its volume of {fused.Volume:.1f} mm³ is below that of one beam"
     if fused.Volume > sum(volumes) * (1 + VOLUME_TOLERANCE):
-        return f"its volume of {fused.Volume:.1f} mm^3 is above that of all beams"
+        return f"its volume of {fused.Volume:.1f} mm³ is above that of all beams"
     deviation = fused.BoundBox.DiagonalLength / 10000.0
     expected = union_volume([triangles_of_shape(s, deviation) for s in shapes])
     found = union_volume([triangles_of_shape(fused, deviation)])
     if abs(found - expected) > VOLUME_TOLERANCE * expected:
-        return f"its volume is {found:.1f} mm^3 where the beams fill {expected:.1f} mm^3"
+        return f"its volume is {found:.1f} mm³ where the beams fill {expected:.1f} mm³"
     return ""

@@ -24,7 +24,7 @@ class ReportText:
         if mesh:
             lines.append(
                 f"mesh: {mesh.get('triangles', 0)} triangles, genus {mesh.get('genus', 0)}, "
-                f"{mesh.get('volume', 0.0):.0f} mm^3"
+                f"{mesh.get('volume', 0.0):.0f} mm³"
             )
         if labels.get("source"):
             lines.append(
@@ -43,8 +43,8 @@ class ReportText:
         if frame:
             lines.append(
                 f"frame: {frame.get('beams', 0)} beams, {frame.get('nodes', 0)} nodes, "
-                f"{frame.get('length', 0.0):.1f} mm; {frame.get('volume', 0.0):.0f} mm^3 of "
-                f"{frame.get('design_volume', 0.0):.0f} mm^3 design"
+                f"{frame.get('length', 0.0):.1f} mm; {frame.get('volume', 0.0):.0f} mm³ of "
+                f"{frame.get('design_volume', 0.0):.0f} mm³ design"
             )
         findings = summary.get("findings") or ()
         lines.append("")

@@ -53,11 +53,13 @@ class FacePicker:
         self._callback = view.addEventCallbackPivy(
             coin.SoMouseButtonEvent.getClassTypeId(), self._clicked
         )
+        Gui.Selection.addObserver(self)
         self.paint()
 
     def stop(self) -> None:
         """Gives the clicks back; the marks stay."""
         if self._view is not None:
+            Gui.Selection.removeObserver(self)
             # The view may have been closed.
             with contextlib.suppress(RuntimeError, ReferenceError):
                 self._view.removeEventCallbackPivy(
@@ -135,15 +137,15 @@ class FacePicker:
         if not info or self._of_info(info) is None:
             return
         node.setHandled()
-        # FreeCAD selects the mesh nevertheless and paints all of it green.
-        QtCore.QTimer.singleShot(0, self._deselect)
         if event.getState() == coin.SoMouseButtonEvent.DOWN:
             place = (info["x"], info["y"], info["z"])
             self.pick(place, bool(event.wasShiftDown()), bool(event.wasCtrlDown()))
 
-    def _deselect(self) -> None:
-        for obj in self._objects.values():
-            Gui.Selection.removeSelection(obj)
+    def addSelection(self, doc: str, name: str, *_: Any) -> None:  # noqa: N802
+        """What FreeCAD calls when the click has been let go: it selects the mesh nevertheless."""
+        if name in self._objects:
+            # All of the mesh would turn green, the marks with it.
+            QtCore.QTimer.singleShot(0, Gui.Selection.clearSelection)
 
     def _of_info(self, info: dict[str, Any]) -> str | None:
         parts = [str(info.get("Object", "")), *str(info.get("Component", "")).split(".")]

@@ -71,7 +71,7 @@ def _freecad(script: str, home: Path) -> list[str]:
         return ["freecadcmd"]
     settings = home / "user.cfg"
     settings.write_text(USER_CFG)
-    screen = "-screen 0 1600x1000x24"
+    screen = "-screen 0 1600x1000x24 -dpi 96"
     return ["xvfb-run", "-a", "-s", screen, "freecad", "-u", str(settings)]
 
 
