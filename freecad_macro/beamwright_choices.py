@@ -99,7 +99,7 @@ class Choices(Form):
         """Takes a program, if it is one; its flags decide what can be chosen."""
         self.program = None
         if not path:
-            self.program_text.setText("beamwright: not found; choose it with …")
+            self.program_text.setText("beamwright: not found")
         else:
             try:
                 self.program = probe(path)

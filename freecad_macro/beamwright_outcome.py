@@ -132,6 +132,9 @@ class Outcome:
         return int((self.summary.get("frame") or {}).get("beams", 0))
 
 
+#: Kind of the finding that is made of an error line with a place in it.
+ERROR = "error"
+
 CANCELLED = "cancelled; nothing was changed"
 
 
@@ -164,7 +167,7 @@ def verdict(
     if message and exit_code != 3 and not findings:
         place = place_in(message)
         if place:
-            findings = (Finding("error", message, True, place),)
+            findings = (Finding(ERROR, message, True, place),)
     return Outcome(exit_code, message, summary, findings)
 
 

@@ -3,6 +3,10 @@
 
 from __future__ import annotations
 
+from beamwright_macro import preferred_program
+from beamwright_outcome import ERROR
+from beamwright_program import is_executable
+
 import re
 import shutil
 import tempfile
@@ -112,7 +116,8 @@ class Panel(Choices):
         self._clear_messages()
         self.tabs.setCurrentWidget(self.log)
         if self.program is None and not self.ask_for_program():
-            self._fail(self.program_text.text() or NOT_FOUND)
+            known = is_executable(preferred_program() or "")
+            self._fail(self.program_text.text() if known else f"{NOT_FOUND}; choose it with …")
             return
         assert self.program is not None
         self._source = self.source()
@@ -238,12 +243,13 @@ class Panel(Choices):
         self.bar.setValue(0)
 
     def _say(self, line: str) -> None:
-        self.log.appendPlainText(line.rstrip())
+        self.log.appendPlainText(self._in_words(line.rstrip()))
 
     def _fail(self, text: str) -> None:
         self.bar.setFormat("no result")
         self.bar.setValue(0)
-        self._say(text)
+        if not self.log.toPlainText().endswith(text):
+            self._say(text)
         self.message.setText(f'<b style="color:#b00000">{html(text)}</b>')
         # As an error it would bring up the report view, which takes the panel's room.
         App.Console.PrintMessage(f"Beamwright: {text}\n")
@@ -253,7 +259,8 @@ class Panel(Choices):
 
     def _list_findings(self, outcome: Outcome) -> None:
         for finding in outcome.findings:
-            item = QtGui.QListWidgetItem(("BREACH: " if finding.breach else "") + finding.text)
+            kind = "BREACH: " if finding.breach and finding.kind != ERROR else ""
+            item = QtGui.QListWidgetItem(kind + self._in_words(finding.text))
             item.setData(USER, finding.text)
             if finding.breach:
                 item.setForeground(QtGui.QBrush(QtGui.QColor(176, 0, 0)))

@@ -37,6 +37,16 @@ PATIENCE = 60.0
 #: machine that is busy with other things.
 LONGEST_GAP = 0.4
 
+#: Pictures that are kept smaller for the README, with their names in freecad_macro/pictures.
+FOR_README = {
+    "2-running": "running",
+    "4-beams-on-mesh": "beams",
+    "6-cut-list": "cut_list",
+    "8-breach": "breach",
+    "11-picked-faces": "picked_faces",
+}
+
+SMOOTH = QtCore.Qt.TransformationMode.SmoothTransformation
 CONTAINS = QtCore.Qt.MatchFlag.MatchContains
 RECURSIVE = QtCore.Qt.MatchFlag.MatchRecursive
 
@@ -92,6 +102,9 @@ def picture(name: str) -> None:
     spin(0.3)
     shot = QtGui.QApplication.primaryScreen().grabWindow(0)
     equal(shot.save(str(ARTEFACTS / f"{name}.png")), True, f"{name}.png is written")
+    if name in FOR_README:
+        small = shot.toImage().scaledToWidth(900, SMOOTH)
+        small.save(str(ARTEFACTS / "readme" / f"{FOR_README[name]}.png"))
 
 
 def open_panel(doc: Any, program: str = PROGRAM) -> Any:
@@ -433,6 +446,7 @@ def clean_up() -> None:
 
 def begin() -> None:
     """Runs the checks once the window stands."""
+    (ARTEFACTS / "readme").mkdir(exist_ok=True)
     window = Gui.getMainWindow()
     window.showNormal()
     window.setGeometry(QtGui.QApplication.primaryScreen().geometry())

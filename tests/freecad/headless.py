@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import time
 from pathlib import Path
@@ -391,6 +392,18 @@ def the_macro_file_ends_with_1_when_it_fails() -> None:
     equal(b"nothing to work on" in done.stderr + done.stdout, True, "message")
 
 
+def the_addon_manager_can_read_what_it_lists() -> None:
+    package = App.Metadata(str(MACRO / "package.xml"))
+    (macro,) = package.Content["macro"]
+    equal((package.Name, macro.Name), ("Beamwright", "Beamwright"), "names")
+    equal([p for p in (macro.File, macro.Icon) if not (MACRO / p).is_file()], [], "missing files")
+    text = (MACRO / "Beamwright.FCMacro").read_text()
+    found = dict(re.findall(r'(?m)^__(\w+)__ = "(.*)"$', text))
+    for name in ("Name", "Comment", "Author", "Date", "Version", "License", "Icon", "Files"):
+        equal(bool(found.get(name)), True, f"__{name}__ on one line")
+    equal(found["Version"], package.Version, "version")
+
+
 def every_module_of_the_macro_is_listed_for_the_addon_manager() -> None:
     text = (MACRO / "Beamwright.FCMacro").read_text()
     line = next(x for x in text.splitlines() if x.startswith("__Files__"))
@@ -412,5 +425,6 @@ main(
     a_missing_program_is_named_with_what_was_searched,
     the_macro_file_runs_without_a_window,
     the_macro_file_ends_with_1_when_it_fails,
+    the_addon_manager_can_read_what_it_lists,
     every_module_of_the_macro_is_listed_for_the_addon_manager,
 )

@@ -19,14 +19,17 @@ HERE = Path(__file__).resolve().parent
 #: Seconds after which a script is taken for hung.
 PATIENCE = 240
 
-#: FreeCAD starts with an empty page of Part: the start page would need a browser engine.
+#: FreeCAD starts with an empty page of Part, as the start page would need a browser engine, and
+#: before a white ground, which keeps the pictures small.
 USER_CFG = """<?xml version="1.0" encoding="UTF-8" standalone="no" ?>
 <FCParameters><FCParamGroup Name="Root"><FCParamGroup Name="BaseApp">
 <FCParamGroup Name="Preferences"><FCParamGroup Name="General">
 <FCText Name="AutoloadModule">PartWorkbench</FCText>
 </FCParamGroup>
-<FCParamGroup Name="View"><FCBool Name="UseAutoRotation" Value="0"/>
-<FCBool Name="ShowNaviCube" Value="1"/></FCParamGroup>
+<FCParamGroup Name="View">
+<FCBool Name="Simple" Value="1"/><FCBool Name="Gradient" Value="0"/>
+<FCUInt Name="BackgroundColor" Value="4294967295"/>
+</FCParamGroup>
 </FCParamGroup></FCParamGroup></FCParamGroup></FCParameters>
 """
 
