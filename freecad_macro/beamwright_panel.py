@@ -3,10 +3,6 @@
 
 from __future__ import annotations
 
-from beamwright_macro import preferred_program
-from beamwright_outcome import ERROR
-from beamwright_program import is_executable
-
 import re
 import shutil
 import tempfile
@@ -28,11 +24,12 @@ from beamwright_input import (
 from beamwright_macro import (
     keep_files,
     outputs_of,
+    preferred_program,
     settings_for,
     with_unit,
 )
-from beamwright_outcome import CANCELLED, Outcome, Progress, beam_in
-from beamwright_program import NOT_FOUND, Program, refusal_of_input
+from beamwright_outcome import CANCELLED, ERROR, Outcome, Progress, beam_in
+from beamwright_program import NOT_FOUND, Program, is_executable, refusal_of_input
 from beamwright_report import ReportText
 from beamwright_result import COMPOUND, PREVIEW, SOLIDS, Inserted, Result, ResultError
 from beamwright_run import Run

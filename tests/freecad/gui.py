@@ -42,7 +42,7 @@ FOR_README = {
     "2-running": "running",
     "4-beams-on-mesh": "beams",
     "6-cut-list": "cut_list",
-    "8-breach": "breach",
+    "9-open-mesh": "failure",
     "11-picked-faces": "picked_faces",
 }
 
@@ -276,6 +276,7 @@ def an_open_mesh_is_refused_in_the_words_of_the_program() -> None:
     equal(
         "cannot use Open: the surface is open" in panel.message.text(), True, panel.message.text()
     )
+    equal("/" in panel.log.toPlainText(), False, "paths in the log")
     equal(panel._marker.is_shown, True, "the first border edge is marked")
     equal(names(doc), before, "objects")
     close(panel)

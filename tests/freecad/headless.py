@@ -396,7 +396,8 @@ def the_addon_manager_can_read_what_it_lists() -> None:
     package = App.Metadata(str(MACRO / "package.xml"))
     (macro,) = package.Content["macro"]
     equal((package.Name, macro.Name), ("Beamwright", "Beamwright"), "names")
-    equal([p for p in (macro.File, macro.Icon) if not (MACRO / p).is_file()], [], "missing files")
+    files = [*macro.File, macro.Icon]
+    equal([p for p in files if not (MACRO / p).is_file()], [], "missing files")
     text = (MACRO / "Beamwright.FCMacro").read_text()
     found = dict(re.findall(r'(?m)^__(\w+)__ = "(.*)"$', text))
     for name in ("Name", "Comment", "Author", "Date", "Version", "License", "Icon", "Files"):
