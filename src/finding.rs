@@ -32,6 +32,8 @@ pub enum FindingKind {
     BeamOutside,
     /// A section that no profile matches well.
     PoorMatch,
+    /// A non-design part that is no solid of the STEP file.
+    NonDesign,
     /// A joint that could not be made.
     Joint,
     /// A shape that is no sound solid and was built as a simpler one.
@@ -55,6 +57,7 @@ impl FindingKind {
             Self::Deviation => "deviation",
             Self::BeamOutside => "beam-outside",
             Self::PoorMatch => "poor-match",
+            Self::NonDesign => "non-design",
             Self::Joint => "joint",
             Self::SimplerSolid => "simpler-solid",
         }

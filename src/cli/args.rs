@@ -320,6 +320,10 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "MM", default_value_t = 2.0, requires = "stock_length")]
     pub(crate) kerf: f64,
 
+    /// Leave the non-design parts out of the STEP file
+    #[arg(long)]
+    pub(crate) no_non_design: bool,
+
     /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
     #[arg(long, value_name = "KG/M3", default_value_t = 7850.0)]
     pub(crate) density: f64,

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use beamwright::output::assembly::{Assembly, assembly};
 use beamwright::output::cut_list::CutList;
+use beamwright::output::mesh_export::{PartMesh, write_parts};
 use beamwright::output::sections::SectionFormat;
 use beamwright::output::summary::Summary;
 use beamwright::output::{OutputFiles, sections, step};
@@ -34,15 +35,19 @@ pub(crate) fn run(
     let mut outcome = pipeline::run(&args.input.input, &settings, progress)?;
     let name = show::name_of(&args.input.input);
     let stem = args.input.input.file_stem().unwrap_or_default().to_string_lossy();
-    let Assembly { document, findings } =
-        assembly(&stem, &outcome.frame, &outcome.joints, args.output.density)
-            .map_err(Failure::input)?;
+    let density = args.output.density;
+    let mut built =
+        assembly(&stem, &outcome.frame, &outcome.joints, density).map_err(Failure::input)?;
+    if !args.output.no_non_design {
+        built = built.with_non_design(&outcome.surface, density);
+    }
+    let Assembly { document, beside, findings } = built;
     outcome.findings.extend(findings);
     let summary = Summary::new(name, &outcome.surface, &outcome.findings)
         .with_skeleton(&outcome.surface, &outcome.skeleton)
         .with_frame(&outcome.surface, &outcome.frame);
     if !(args.result.strict && summary.has_breach()) {
-        let files = written(targets, args, &outcome, &summary, &document)?;
+        let files = written(targets, args, &outcome, &summary, &document, &beside)?;
         targets::commit(files, progress)?;
     }
     progress.finish();
@@ -56,6 +61,8 @@ struct Targets {
     cut_list_format: CutListFormat,
     skeleton: PathBuf,
     skeleton_format: skeleton_file::Format,
+    /// Non-design parts that are too much for the STEP file.
+    beside: PathBuf,
     sections: Option<(PathBuf, SectionFormat)>,
     exports: Vec<Export>,
     looks: Looks,
@@ -81,7 +88,8 @@ impl Targets {
         let exports: Vec<Export> =
             args.output.export.iter().map(|path| Export::new(path)).collect::<Result<_, _>>()?;
         let looks = Looks::new(args)?;
-        let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone()];
+        let non_design = beside("non-design.ply");
+        let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone(), non_design.clone()];
         all.extend(sections.iter().map(|(path, _)| path.clone()));
         all.extend(exports.iter().flat_map(Export::targets));
         all.extend(looks.targets());
@@ -92,6 +100,7 @@ impl Targets {
             cut_list_format: cut_list_format(&cut_list)?,
             cut_list,
             skeleton,
+            beside: non_design,
             sections,
             exports,
             looks,
@@ -132,6 +141,7 @@ fn written(
     outcome: &Outcome,
     summary: &Summary,
     document: &step::Document,
+    beside: &[PartMesh],
 ) -> Result<OutputFiles, Failure> {
     let list = CutList::new(&outcome.frame, &outcome.joints, &args.output.cut_list_params());
     let mut files = OutputFiles::default();
@@ -151,6 +161,9 @@ fn written(
             })
         })
         .map_err(Failure::input)?;
+    if !beside.is_empty() {
+        files.add(&targets.beside, |out| write_parts(beside, out)).map_err(Failure::input)?;
+    }
     if let Some((path, format)) = &targets.sections {
         let Outcome { skeleton, sections, frame, .. } = outcome;
         files

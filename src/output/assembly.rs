@@ -2,11 +2,14 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 
+use super::mesh_export::PartMesh;
+use super::non_design::{NonDesign, non_design};
 use super::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
 use crate::finding::{Finding, FindingKind};
 use crate::frame::shape::{BeamShape, ShapeStation};
 use crate::frame::{Beam, Frame};
 use crate::joint::{Ball, CutBeam, EndCut, Joints};
+use crate::mesh::Surface;
 use crate::section::outline::{Outline, Segment};
 
 /// Colours given to profiles in turn: distinct for the common kinds of colour blindness
@@ -34,8 +37,21 @@ pub fn mark(index: usize) -> String {
 pub struct Assembly {
     /// The document.
     pub document: Document,
-    /// Beams that were built as simpler solids.
+    /// Non-design parts that go into a mesh file beside the STEP file.
+    pub beside: Vec<PartMesh>,
+    /// Beams that were built as simpler solids, non-design parts that are none.
     pub findings: Vec<Finding>,
+}
+
+impl Assembly {
+    /// Adds the non-design parts of the surface the frame was made from.
+    pub fn with_non_design(mut self, surface: &Surface, density: f64) -> Self {
+        let NonDesign { parts, meshes, findings } = non_design(surface, density);
+        self.document.groups.push(Group { name: "Non-design".into(), parts, groups: Vec::new() });
+        self.beside = meshes;
+        self.findings.extend(findings);
+        self
+    }
 }
 
 /// Builds the assembly of a frame: beams, and balls where its joints have any.
@@ -70,7 +86,8 @@ pub fn assembly(
     if !joints.balls.is_empty() {
         groups.push(group("Joints", balls(frame, &joints.balls, density)?));
     }
-    Ok(Assembly { document: Document { name: name.to_owned(), groups }, findings })
+    let document = Document { name: name.to_owned(), groups };
+    Ok(Assembly { document, beside: Vec::new(), findings })
 }
 
 fn part(
@@ -117,17 +134,17 @@ fn sound_body(
     placement: &Isometry3<f64>,
 ) -> Result<(Body, Option<&'static str>), step::BodyError> {
     let wanted = body(&beam.shape, cut, placement);
-    if let Ok(body) = wanted.and_then(|b| b.volume().map(|_| b)) {
+    if let Ok(body) = wanted.and_then(|b| b.check().map(|_| b)) {
         return Ok((body, None));
     }
     let square = CutBeam { ends: [EndCut::SQUARE; 2], ..*cut };
     let plain = body(&beam.shape, &square, placement);
-    if let Ok(body) = plain.and_then(|b| b.volume().map(|_| b)) {
+    if let Ok(body) = plain.and_then(|b| b.check().map(|_| b)) {
         return Ok((body, Some("with its ends cut square")));
     }
     let radius = (beam.shape.properties.area / std::f64::consts::PI).sqrt();
     let round = Body::round_bar(radius, beam.cut_length);
-    round.volume().map(|_| (round, Some("as a round bar of its area")))
+    round.check().map(|_| (round, Some("as a round bar of its area")))
 }
 
 fn simpler_solid(index: usize, frame: &Frame, beam: &Beam, how: &str) -> Finding {

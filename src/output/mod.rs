@@ -2,12 +2,14 @@
 
 pub mod assembly;
 pub mod beam_table;
+mod cap;
 pub mod cut_list;
 mod decimate;
 pub mod files;
 pub mod glb;
 pub mod mesh_export;
 pub mod mlp;
+pub mod non_design;
 pub mod picture;
 pub mod report;
 pub mod sections;

@@ -21,7 +21,8 @@ use nalgebra::{Isometry3, Point3};
 
 use super::step::{Body, Document, Group, Part};
 
-pub(super) use ply::{write_labelled, write_parts};
+pub(super) use ply::write_labelled;
+pub use ply::write_parts;
 
 /// Sides of a full circle.
 pub const ROUND: usize = 48;

@@ -36,10 +36,10 @@ pub(in crate::output) fn write_labelled(surface: &Surface, out: &mut dyn Write) 
 ///
 /// # Errors
 /// What `out` says.
-pub(in crate::output) fn write_parts(parts: &[PartMesh], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_parts(parts: &[PartMesh], out: &mut dyn Write) -> io::Result<()> {
     let points = parts.iter().map(|p| p.points.len()).sum();
     let triangles = parts.iter().map(|p| p.triangles.len()).sum();
-    header(out, "beams; quality: number of the beam", points, triangles, "float quality")?;
+    header(out, "parts; quality: number of the part", points, triangles, "float quality")?;
     for part in parts {
         part.points.iter().try_for_each(|p| point(out, p))?;
     }
