@@ -17,6 +17,7 @@ from beamwright_step import mark_of
 _ALIASES: Mapping[str, Sequence[str]] = {
     "mark": ("mark", "marks", "name", "beam"),
     "profile": ("profile",),
+    "family": ("family",),
     "standard": ("standard",),
     "material": ("material",),
     "length": ("cut_length", "length"),
@@ -35,8 +36,9 @@ class CutListRow:
     """One line of the cut list.
 
     * ``marks``: the beams it is about, as ``B001``
-    * ``length`` in mm, ``angle_1`` and ``angle_2`` in degrees, ``mass`` of one piece in kg,
-      ``area`` of the mean section in mm²
+    * ``length`` in mm, ``mass`` of one piece in kg, ``area`` of the profile in mm²
+    * ``angle_1`` and ``angle_2`` of the cuts at the ends, ``twist`` between them, in degrees
+    * ``family``: ``CHS`` of ``CHS 60.3x4``
     """
 
     marks: Sequence[str]
@@ -46,20 +48,17 @@ class CutListRow:
     area: float | None = None
     angle_1: float | None = None
     angle_2: float | None = None
+    twist: float | None = None
     quantity: int = 1
     standard: str = ""
     material: str = ""
     branch: str = ""
-
-    @property
-    def family(self) -> str:
-        """What comes before the size: ``CHS`` of ``CHS 60.3x4``."""
-        return split_profile(self.profile)[0]
+    family: str = ""
 
     @property
     def size(self) -> str:
         """The size alone: ``60.3x4`` of ``CHS 60.3x4``."""
-        return split_profile(self.profile)[1]
+        return self.profile[len(self.family) :].strip()
 
 
 def split_profile(profile: str) -> tuple[str, str]:
@@ -101,14 +100,20 @@ def _row(marks: list[str], length: float, cells: Mapping[str, str]) -> CutListRo
         value = _number(cells.get(name, ""))
         return otherwise if value is None else value
 
+    profile = cells.get("profile", "")
+    family = cells.get("family", "")
+    if not family or not profile.startswith(family):
+        family = split_profile(profile)[0]
     return CutListRow(
         marks=marks,
-        profile=cells.get("profile", ""),
+        profile=profile,
+        family=family,
         length=length,
         mass=number("mass", 0.0),
         area=_number(cells.get("area", "")),
         angle_1=_number(cells.get("angle_1", "")),
         angle_2=_number(cells.get("angle_2", "")),
+        twist=_number(cells.get("twist", "")),
         quantity=int(number("quantity", float(len(marks)))),
         standard=cells.get("standard", ""),
         material=cells.get("material", ""),
@@ -146,18 +151,21 @@ SHEET_COLUMNS = (
     "CutAngle2",
     "ApproxWeight",
     "Quantity",
+    "CutTwist",
+    "Standard",
     "Area",
     "Branch",
 )
 
 #: Of the columns, pixels.
-WIDTHS = (110, 190, 80, 100, 90, 85, 85, 85, 105, 75, 95, 60)
+WIDTHS = (110, 190, 80, 100, 90, 85, 85, 85, 105, 75, 85, 100, 95, 60)
 
 LEGEND = (
-    "Length: of one piece along its axis, cuts included",
-    "CutAngle1, CutAngle2: at the two ends; empty where the run gave none and cuts are square",
+    "Length: of one piece, to saw off a bar: from the farthest corner to the farthest",
+    "CutAngle1, CutAngle2: of the cuts at the two ends; 0 is square",
+    "CutTwist: turn between the cuts about the axis; 0 a parallelogram, 180 a trapezium",
     "ApproxWeight: of one piece, with the density given to the run",
-    "Area: of the mean section along the branch",
+    "Area: of the profile",
     "Branch: of the skeleton the piece came from, counted from 0",
 )
 
@@ -184,6 +192,8 @@ def sheet_rows(
                 _with_unit(row.angle_2, 2, "deg"),
                 f"{row.mass:.6f} kg",
                 str(row.quantity),
+                _with_unit(row.twist, 2, "deg"),
+                text_cell(row.standard),
                 _with_unit(row.area, 2, "mm^2"),
                 text_cell(row.branch),
             ]

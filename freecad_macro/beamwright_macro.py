@@ -5,16 +5,23 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any, Callable, Sequence
 
 import FreeCAD as App
 from beamwright_command import Options, Outputs, command_line
 from beamwright_document import insert_result
 from beamwright_input import InputError, Job, NonDesign, Source, prepare
-from beamwright_outcome import run_to_end
-from beamwright_program import NOT_FOUND, ProgramError, find_program, probe, refusal_of_input
+from beamwright_outcome import Outcome, run_to_end
+from beamwright_program import (
+    NOT_FOUND,
+    Program,
+    ProgramError,
+    find_program,
+    probe,
+    refusal_of_input,
+)
 from beamwright_report import kept_files
 from beamwright_result import COMPOUND, SOLIDS, Inserted, Result
 
@@ -42,6 +49,59 @@ def keep_files(outputs: Outputs, folder: str) -> list[str]:
     return kept
 
 
+@dataclass(frozen=True)
+class Ready:
+    """A run that can start: its input is written.
+
+    * ``arguments``: for the program; ``notes``: what is to be said before
+    """
+
+    program: Program
+    source: Source
+    non_design: NonDesign
+    options: Options
+    job: Job
+    outputs: Outputs
+    arguments: Sequence[str]
+    notes: Sequence[str]
+
+    def result(
+        self, outcome: Outcome, style: str, *, fuse: bool = False, show_mesh: bool = True
+    ) -> Result:
+        """What there is to take into the document after the run."""
+        return Result(
+            self.source,
+            self.outputs,
+            outcome,
+            self.program,
+            style,
+            fuse,
+            show_mesh,
+            unit=self.options.unit,
+            chosen=self.options.chosen(),
+            settings=settings_for(self.non_design, self.options),
+        )
+
+
+def make_ready(
+    program: Program, source: Source, non_design: NonDesign, options: Options, folder: str
+) -> Ready:
+    """Writes the input of a run into ``folder``.  Raises ``InputError``."""
+    refusal = refusal_of_input(program, source.file) if source.file else None
+    if refusal:
+        raise InputError(refusal)
+    job = prepare(source, non_design, folder, options.unit)
+    outputs = outputs_of(job, folder)
+    # The unit is that of the file which is really handed over.
+    given = replace(options, unit=job.unit)
+    arguments, left_out = command_line(program, job.mesh, outputs, given, job.regions)
+    notes = list(job.notes)
+    if left_out:
+        flags = ", ".join(left_out)
+        notes.append(f"left out, as beamwright {program.version_text} has none: {flags}")
+    return Ready(program, source, non_design, options, job, outputs, arguments, notes)
+
+
 def reconstruct(
     doc: Any,
     source: Source,
@@ -62,45 +122,22 @@ def reconstruct(
 
     Raises ``ProgramError``, ``InputError`` or ``ResultError``; the document is then as it was.
     """
-    non_design = non_design or NonDesign()
-    options = options or Options()
     path = program or preferred_program()
     if not path:
         raise ProgramError(NOT_FOUND)
     found = probe(path)
-    if source.file:
-        refusal = refusal_of_input(found, source.file)
-        if refusal:
-            raise InputError(refusal)
     with tempfile.TemporaryDirectory(prefix="beamwright-") as folder:
-        job = prepare(source, non_design, folder, options.unit)
-        for note in job.notes:
+        ready = make_ready(found, source, non_design or NonDesign(), options or Options(), folder)
+        for note in ready.notes:
             on_event(note)
-        outputs = outputs_of(job, folder)
-        arguments, left_out = command_line(
-            found, job.mesh, outputs, with_unit(options, job.unit), job.regions
-        )
-        if left_out:
-            on_event(f"beamwright {found.version_text} has no {', '.join(left_out)}; left out")
-        outcome = run_to_end(found, arguments, on_event)
+        outcome = run_to_end(found, ready.arguments, on_event)
         if not outcome.ok:
-            raise ProgramError(job.in_words(outcome.message))
+            raise ProgramError(ready.job.in_words(outcome.message))
         if not style:
             style = SOLIDS if outcome.beams <= MANY_BEAMS else COMPOUND
-        result = Result(
-            source,
-            outputs,
-            outcome,
-            found,
-            style,
-            fuse,
-            unit=options.unit,
-            chosen=options.chosen(),
-            settings=settings_for(non_design, options),
-        )
-        inserted = insert_result(doc, result)
+        inserted = insert_result(doc, ready.result(outcome, style, fuse=fuse))
         if keep:
-            inserted.notes += [f"kept {p}" for p in keep_files(outputs, keep)]
+            inserted.notes += [f"kept {p}" for p in keep_files(ready.outputs, keep)]
         return inserted
 
 
@@ -109,11 +146,6 @@ def outputs_of(job: Job, folder: str) -> Outputs:
     below = Path(folder) / "out"
     below.mkdir(exist_ok=True)
     return Outputs(str(below), job.stem)
-
-
-def with_unit(options: Options, unit: str) -> Options:
-    """The options with the unit of the file that is really handed over."""
-    return replace(options, unit=unit)
 
 
 def settings_for(non_design: NonDesign, options: Options) -> dict[str, Any]:

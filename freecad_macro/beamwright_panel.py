@@ -12,26 +12,21 @@ import beamwright_macro
 import FreeCAD as App
 import FreeCADGui as Gui
 from beamwright_choices import Choices
-from beamwright_command import Outputs, command_line
 from beamwright_document import insert_result
 from beamwright_form import USER
 from beamwright_input import (
     InputError,
-    Job,
-    Source,
-    prepare,
 )
 from beamwright_macro import (
+    Ready,
     keep_files,
-    outputs_of,
+    make_ready,
     preferred_program,
-    settings_for,
-    with_unit,
 )
 from beamwright_outcome import CANCELLED, ERROR, Outcome, Progress, beam_in
-from beamwright_program import NOT_FOUND, Program, is_executable, refusal_of_input
+from beamwright_program import NOT_FOUND, Program, is_executable
 from beamwright_report import ReportText
-from beamwright_result import COMPOUND, PREVIEW, SOLIDS, Inserted, Result, ResultError
+from beamwright_result import COMPOUND, PREVIEW, SOLIDS, Inserted, ResultError
 from beamwright_run import Run
 from beamwright_step import mark_of
 from beamwright_view import Marker, extent
@@ -67,10 +62,7 @@ class Panel(Choices):
         self.inserted: Inserted | None = None
         self.outcome: Outcome | None = None
         self._folder = ""
-        self._job: Job | None = None
-        self._outputs: Outputs | None = None
-        self._source = Source()
-        self._left_out: list[str] = []
+        self._ready: Ready | None = None
         self._marker = Marker()
         self.start_button.clicked.connect(self.start)
         self.cancel_button.clicked.connect(self.cancel)
@@ -117,16 +109,16 @@ class Panel(Choices):
             self._fail(self.program_text.text() if known else f"{NOT_FOUND}; choose it with …")
             return
         assert self.program is not None
-        self._source = self.source()
+        self._ready = None
         try:
-            arguments = self._prepare(self.program)
+            self._ready = self._make_ready(self.program)
         except (InputError, OSError) as error:
             self._forget_files()
             self._fail(str(error))
             return
-        if self._left_out:
-            self._say(f"left out, as this beamwright has none: {', '.join(self._left_out)}")
-        self.run = Run(self.program, arguments, self.form)
+        for note in self._ready.notes:
+            self._say(note)
+        self.run = Run(self.program, self._ready.arguments, self.form)
         self.run.progressed.connect(self._progressed)
         self.run.said.connect(self._say)
         self.run.ended.connect(self._ended)
@@ -134,22 +126,10 @@ class Panel(Choices):
         self.cancel_button.setEnabled(True)
         self.run.start()
 
-    def _prepare(self, program: Program) -> list[str]:
-        if self._source.file:
-            refusal = refusal_of_input(program, self._source.file)
-            if refusal:
-                raise InputError(refusal)
+    def _make_ready(self, program: Program) -> Ready:
         self._folder = tempfile.mkdtemp(prefix="beamwright-")
-        options = self.options()
-        self._job = prepare(self._source, self.non_design(), self._folder, options.unit)
-        for note in self._job.notes:
-            self._say(note)
-        self._outputs = outputs_of(self._job, self._folder)
-        options = with_unit(options, self._job.unit)
-        arguments, self._left_out = command_line(
-            program, self._job.mesh, self._outputs, options, self._job.regions
-        )
-        return arguments
+        source, non_design, options = self.source(), self.non_design(), self.options()
+        return make_ready(program, source, non_design, options, self._folder)
 
     def cancel(self, *_: Any) -> None:
         """Stops the program; the document stays as it is."""
@@ -185,15 +165,21 @@ class Panel(Choices):
             if not style:
                 self._fail(CANCELLED)
                 return
-        assert self._outputs is not None and self.program is not None
+        assert self._ready is not None
         self.bar.setFormat("taking in %p %")
         self.bar.setValue(980)
         QtGui.QApplication.setOverrideCursor(QtGui.QCursor(QtCore.Qt.CursorShape.WaitCursor))
         try:
-            self.inserted = insert_result(self.doc, self._result(outcome, style))
+            result = self._ready.result(
+                outcome,
+                style,
+                fuse=self.fuse.isChecked(),
+                show_mesh=self.show_mesh.isChecked(),
+            )
+            self.inserted = insert_result(self.doc, result)
             kept = self.keep.text().strip()
             if kept:
-                for path in keep_files(self._outputs, kept):
+                for path in keep_files(self._ready.outputs, kept):
                     self._say(f"kept {path}")
         except (ResultError, OSError) as error:
             self._fail(str(error))
@@ -205,25 +191,9 @@ class Panel(Choices):
         self.report_button.setEnabled(True)
         for note in self.inserted.notes:
             self._say(note)
-        self._say(str(ReportText.of(outcome.summary, self.program.version_text)))
+        self._say(str(ReportText.of(outcome.summary, self._ready.program.version_text)))
         self.message.setText(f"<b>{outcome.beams} beams.</b> One undo takes all of it back.")
         self.picker.unpaint()
-
-    def _result(self, outcome: Outcome, style: str) -> Result:
-        assert self._outputs is not None and self.program is not None
-        options = self.options()
-        return Result(
-            self._source,
-            self._outputs,
-            outcome,
-            self.program,
-            style,
-            self.fuse.isChecked(),
-            self.show_mesh.isChecked(),
-            unit=options.unit,
-            chosen=options.chosen(),
-            settings=settings_for(self.non_design(), options),
-        )
 
     def _forget_files(self) -> None:
         if self._folder:
@@ -252,7 +222,7 @@ class Panel(Choices):
         App.Console.PrintMessage(f"Beamwright: {text}\n")
 
     def _in_words(self, message: str) -> str:
-        return self._job.in_words(message) if self._job is not None else message
+        return self._ready.job.in_words(message) if self._ready is not None else message
 
     def _list_findings(self, outcome: Outcome) -> None:
         for finding in outcome.findings:
@@ -280,7 +250,8 @@ class Panel(Choices):
             Gui.Selection.addSelection(beam)
         view = self._view()
         if finding.place is not None and view is not None:
-            shown = extent(self._source.objects or (self.inserted.beams if self.inserted else ()))
+            objects = self._ready.source.objects if self._ready else ()
+            shown = extent(objects or (self.inserted.beams if self.inserted else ()))
             self._marker.show(view, finding.place, shown / 30.0)
 
     def _beam_of(self, text: str) -> Any | None:

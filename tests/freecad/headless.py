@@ -29,6 +29,7 @@ from beamwright_macro import reconstruct
 from beamwright_mesh import FlatRegions
 from beamwright_program import ProgramError
 from beamwright_result import ResultError
+from beamwright_step import mark_of
 from scene import (
     ARTEFACTS,
     MACRO,
@@ -64,7 +65,7 @@ def solids(group: Any) -> list[Any]:
     """The beams of a group, wherever they stand in it."""
     objects = group.OutListRecursive
     found = [o for o in objects if o.TypeId == "Part::Feature" and o.Shape.Solids]
-    return sorted(found, key=lambda o: o.Label)
+    return sorted((o for o in found if mark_of(o.Label)), key=lambda o: o.Label)
 
 
 def sheet_of(group: Any) -> Any:
@@ -115,9 +116,21 @@ def check_group(group: Any) -> None:
     equal([b.Label.split()[0] for b in beams], marks(group), "marks")
     equal([b.Label for b in beams if not b.Shape.isValid()], [], "invalid shapes")
     equal(sorted(names_in_sheet(sheet_of(group))), sorted(b.Label for b in beams), "cut list")
+    equal(Path(group.Report).is_file(), True, "the report is in the document")
     kinds = {o.TypeId for o in group.Group}
     for kind in ("App::Part", "Part::Feature", "Spreadsheet::Sheet", "App::TextDocument"):
         equal(kind in kinds, True, f"{kind} in the group")
+
+
+def every_kind_of_joint_arrives_as_valid_solids() -> None:
+    for joint in ("none", "sphere", "mitre", "trim"):
+        doc = document("cantilever.obj")
+        group = reconstruct(doc, Source(meshes(doc)), options=Options("round", joints=joint)).group
+        check_group(group)
+        angles = [sheet_of(group).get(f"{c}{row}").Value for c in "GH" for row in (2, 3, 4)]
+        if joint in ("none", "trim"):
+            equal(max(angles) > 0.0, joint == "trim", f"angles of the cuts with {joint}")
+        App.closeDocument(doc.Name)
 
 
 def beams_stand_where_the_program_put_them() -> None:
@@ -415,6 +428,7 @@ def every_module_of_the_macro_is_listed_for_the_addon_manager() -> None:
 
 main(
     every_beam_arrives_named_as_in_the_cut_list_and_survives_saving,
+    every_kind_of_joint_arrives_as_valid_solids,
     beams_stand_where_the_program_put_them,
     one_undo_brings_back_what_was_there,
     a_second_run_replaces_the_first,

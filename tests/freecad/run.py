@@ -80,7 +80,8 @@ def _freecad(script: str, home: Path) -> list[str]:
 
 def _run(command: list[str], environment: dict[str, str], log: Path) -> int:
     """Exit code of a command whose output goes to a log; the checks' lines are shown as well."""
-    with log.open("w") as out:
+    log.unlink(missing_ok=True)
+    with log.open("a") as out:
         process = subprocess.Popen(
             command, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
         )

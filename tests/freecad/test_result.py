@@ -20,8 +20,12 @@ total,,125.882,,0.671,
 """
 
 GROUPED = """\
-marks,quantity,profile,standard,cut_length_mm,cut_angle_1_deg,cut_angle_2_deg,unit_mass_kg
-B001 B003,2,HEA 100,EN 10365,500,90,45.5,8.35
+piece,mark,quantity,profile,family,standard,material,length_mm,axis_length_mm,angle_1_deg,\
+angle_2_deg,twist_deg,area_mm2,unit_mass_kg,mass_kg,unit_surface_m2,branch
+P1,B001 B003,2,HEA 100 A,HEA,EN 10365,steel,500,490,0,45.5,180,2120,8.35,16.7,0.3,1 2
+,,,,,,,,,,,,,,,,
+total,,quantity,profile,,standard,,length_mm,,,,,,,,,
+,,2,HEA 100 A,,EN 10365,,1000,,,,,,,16.7,0.6,
 """
 
 
@@ -43,7 +47,8 @@ def test_a_cut_list_ends_at_its_first_empty_line(tmp_path: Path) -> None:
 def test_equal_pieces_may_share_a_line(tmp_path: Path) -> None:
     (row,) = read_cut_list(write(tmp_path, "c.csv", GROUPED))
     assert (row.marks, row.quantity, row.angle_2) == (["B001", "B003"], 2, 45.5)
-    assert (row.family, row.size) == ("HEA", "100")
+    assert (row.family, row.size, row.twist) == ("HEA", "100 A", 180.0)
+    assert (row.length, row.mass, row.standard) == (500.0, 8.35, "EN 10365")
 
 
 def test_a_cut_list_without_its_columns_is_refused(tmp_path: Path) -> None:
