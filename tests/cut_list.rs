@@ -4,6 +4,7 @@ use std::path::Path;
 
 use beamwright::joint::JointKind;
 use beamwright::output::cut_list::{CutList, CutListParams, Stock};
+use beamwright::output::material::Material;
 use beamwright::pipeline::{self, Outcome, Settings};
 
 type Outcomes = Result<(), Box<dyn std::error::Error>>;
@@ -14,7 +15,10 @@ fn run(sample: &str, joints: JointKind) -> Result<Outcome, pipeline::PipelineErr
 }
 
 fn list(outcome: &Outcome, stock: Option<Stock>) -> CutList {
-    let params = CutListParams { material: "=steel".into(), density: 7850.0, stock };
+    let params = CutListParams {
+        material: Material { name: "=steel".into(), ..Material::default() },
+        stock,
+    };
     CutList::new(&outcome.frame, &outcome.joints, &params)
 }
 

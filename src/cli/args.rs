@@ -8,6 +8,7 @@ use beamwright::joint::JointKind;
 use beamwright::mesh::LabelParams;
 use beamwright::mesh::label::DEFAULT_NAMES;
 use beamwright::output::cut_list::{CutListParams, Stock};
+use beamwright::output::material::Material;
 use beamwright::pipeline::Settings;
 use beamwright::section::{MatchMode, ProfileChoice};
 use beamwright::skeleton::{Orientation, SkeletonParams};
@@ -312,6 +313,14 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "NAME", default_value = "steel")]
     pub(crate) material: String,
 
+    /// Elastic modulus for the CalculiX model, MPa (steel: 210000, aluminium: 70000)
+    #[arg(long, value_name = "MPA", default_value_t = Material::default().elastic_modulus)]
+    pub(crate) elastic_modulus: f64,
+
+    /// Poisson's ratio for the CalculiX model
+    #[arg(long, value_name = "RATIO", default_value_t = Material::default().poisson)]
+    pub(crate) poisson: f64,
+
     /// Lay the pieces into stock bars of this length, mm
     #[arg(long, value_name = "MM")]
     pub(crate) stock_length: Option<f64>,
@@ -325,15 +334,23 @@ pub(crate) struct OutputArgs {
     pub(crate) no_non_design: bool,
 
     /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
-    #[arg(long, value_name = "KG/M3", default_value_t = 7850.0)]
+    #[arg(long, value_name = "KG/M3", default_value_t = Material::default().density)]
     pub(crate) density: f64,
 }
 
 impl OutputArgs {
+    pub(crate) fn material(&self) -> Material {
+        Material {
+            name: self.material.clone(),
+            density: self.density,
+            elastic_modulus: self.elastic_modulus,
+            poisson: self.poisson,
+        }
+    }
+
     pub(crate) fn cut_list_params(&self) -> CutListParams {
         CutListParams {
-            material: self.material.clone(),
-            density: self.density,
+            material: self.material(),
             stock: self.stock_length.map(|length_mm| Stock { length_mm, kerf_mm: self.kerf }),
         }
     }

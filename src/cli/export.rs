@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use beamwright::output::files::WriteError;
+use beamwright::output::material::Material;
 use beamwright::output::mlp::{self, Project};
 use beamwright::output::view::View;
-use beamwright::output::{OutputFiles, glb, step};
+use beamwright::output::{OutputFiles, calculix, dxf, glb, ifc, step};
 use beamwright::pipeline::Outcome;
 
 use super::exit::Failure;
@@ -22,15 +23,22 @@ pub(crate) struct Export {
 enum Format {
     MeshLabProject,
     BinaryGltf,
+    Dxf,
+    Ifc,
+    CalculiX,
 }
 
 impl Format {
-    const ALL: [Self; 2] = [Self::MeshLabProject, Self::BinaryGltf];
+    const ALL: [Self; 5] =
+        [Self::MeshLabProject, Self::BinaryGltf, Self::Dxf, Self::Ifc, Self::CalculiX];
 
     const fn extension(self) -> &'static str {
         match self {
             Self::MeshLabProject => "mlp",
             Self::BinaryGltf => "glb",
+            Self::Dxf => "dxf",
+            Self::Ifc => "ifc",
+            Self::CalculiX => "inp",
         }
     }
 
@@ -54,7 +62,9 @@ impl Export {
     pub(crate) fn targets(&self) -> Vec<PathBuf> {
         match self.format {
             Format::MeshLabProject => mlp::targets(&self.path).to_vec(),
-            Format::BinaryGltf => vec![self.path.clone()],
+            Format::BinaryGltf | Format::Dxf | Format::Ifc | Format::CalculiX => {
+                vec![self.path.clone()]
+            }
         }
     }
 
@@ -64,8 +74,18 @@ impl Export {
         files: &mut OutputFiles,
         outcome: &Outcome,
         document: &step::Document,
+        material: &Material,
     ) -> Result<(), WriteError> {
+        let Outcome { frame, joints, surface, .. } = outcome;
+        let name = &document.name;
         match self.format {
+            Format::Dxf => files.add(&self.path, |out| dxf::write(frame, out)),
+            Format::Ifc => {
+                files.add(&self.path, |out| ifc::write(name, frame, joints, material, out))
+            }
+            Format::CalculiX => files.add(&self.path, |out| {
+                calculix::write(name, frame, &surface.interfaces, material, out)
+            }),
             Format::MeshLabProject => mlp::add(files, &self.path, &project(outcome, document)),
             Format::BinaryGltf => files
                 .add(&self.path, |out| glb::write(&document.name, &view(outcome, document), out)),

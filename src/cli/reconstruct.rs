@@ -171,7 +171,9 @@ fn written(
             .map_err(Failure::input)?;
     }
     for export in &targets.exports {
-        export.add(&mut files, outcome, document).map_err(Failure::input)?;
+        export
+            .add(&mut files, outcome, document, &args.output.material())
+            .map_err(Failure::input)?;
     }
     targets.looks.add(&mut files, args, outcome, summary, document)?;
     Ok(files)

@@ -2,14 +2,19 @@
 
 pub mod assembly;
 pub mod beam_table;
+pub mod calculix;
 mod cap;
 pub mod cut_list;
 mod decimate;
+pub mod dxf;
 pub mod files;
 pub mod glb;
+pub mod ifc;
+pub mod material;
 pub mod mesh_export;
 pub mod mlp;
 pub mod non_design;
+mod part21;
 pub mod picture;
 pub mod report;
 pub mod sections;

@@ -22,14 +22,13 @@ pub use piece::Piece;
 
 use crate::frame::Frame;
 use crate::joint::Joints;
+use crate::output::material::Material;
 
 /// What the list is told.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct CutListParams {
-    /// Name of the material, as printed.
-    pub material: String,
-    /// Its density, kg/m³.
-    pub density: f64,
+    /// What the beams are of.
+    pub material: Material,
     /// Bars the pieces are cut from, if they are to be nested.
     pub stock: Option<Stock>,
 }
@@ -77,8 +76,8 @@ impl CutList {
         Self {
             format: "beamwright-cut-list",
             version: 1,
-            material: params.material.clone(),
-            density: params.density,
+            material: params.material.name.clone(),
+            density: params.material.density,
             pieces,
             totals,
             nesting,

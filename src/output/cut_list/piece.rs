@@ -97,7 +97,7 @@ fn piece(index: usize, beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Pi
         profile: shape.name(),
         family: shape.profile.family().to_owned(),
         standard: shape.profile.designation.as_ref().map_or(String::new(), |d| d.standard.clone()),
-        material: params.material.clone(),
+        material: params.material.name.clone(),
         length_mm: rounded(cut.length, 3),
         axis_length_mm: rounded(cut.axis_length, 3),
         // Either end may be called the first: the more oblique one is.
@@ -105,7 +105,7 @@ fn piece(index: usize, beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Pi
         angle_2_deg: a.min(b),
         twist_deg: rounded(cut.twist.to_degrees(), 1),
         area_mm2: rounded(shape.properties.area, 3),
-        unit_mass_kg: rounded(volume * params.density * 1e-9, 6),
+        unit_mass_kg: rounded(volume * params.material.density * 1e-9, 6),
         mass_kg: 0.0,
         unit_surface_m2: rounded(shape.profile.outer_perimeter() * cut.axis_length * 1e-6, 6),
         branches: beam.spans().map(|(_, branch)| branch).collect(),

@@ -69,7 +69,6 @@ mod geometry;
 mod levels;
 mod loft;
 mod outline;
-mod part21;
 mod piece;
 mod product;
 mod sections;
@@ -87,8 +86,8 @@ pub use freeform::Freeform;
 pub use loft::{Between, EndCut, Loft, Station};
 pub use outline::{Outline, Path, Segment};
 
+use super::part21::{self, Part21};
 use catalogue::Catalogue;
-use part21::Part21;
 use product::Products;
 
 /// Writes a document as a STEP file.

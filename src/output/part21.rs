@@ -1,4 +1,4 @@
-//! The text of a STEP file (ISO 10303-21): entities, numbers, strings.
+//! The text of an exchange file (ISO 10303-21), STEP or IFC: entities, numbers, strings.
 
 use std::fmt::{self, Display, Formatter, Write as _};
 use std::io::Write;
@@ -8,7 +8,7 @@ const CHUNK: usize = 1 << 16;
 
 /// The number of an entity, `#12`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Id(u32);
+pub(in crate::output) struct Id(u32);
 
 impl Display for Id {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -18,53 +18,57 @@ impl Display for Id {
 
 /// Why an entity could not be written.
 #[derive(Debug)]
-pub(super) enum Fault {
+pub(in crate::output) enum Fault {
     /// A number in it is NaN or infinite.
     NotFinite,
     Io(std::io::Error),
 }
 
 /// Writes entities one after the other and numbers them.
-pub(super) struct Part21<'a> {
+pub(in crate::output) struct Part21<'a> {
     out: &'a mut dyn Write,
     text: String,
     next: u32,
 }
 
 impl<'a> Part21<'a> {
-    pub(super) fn new(out: &'a mut dyn Write) -> Self {
+    pub(in crate::output) fn new(out: &'a mut dyn Write) -> Self {
         Self { out, text: String::with_capacity(CHUNK + 4096), next: 1 }
     }
 
     /// Writes text that is not an entity.
-    pub(super) fn raw(&mut self, text: &str) -> Result<(), Fault> {
+    pub(in crate::output) fn raw(&mut self, text: &str) -> Result<(), Fault> {
         self.text.push_str(text);
         self.flush_from(CHUNK)
     }
 
     /// Sets a number aside for an entity that is written later.
-    pub(super) fn reserve(&mut self) -> Id {
+    pub(in crate::output) fn reserve(&mut self) -> Id {
         let id = Id(self.next);
         self.next += 1;
         id
     }
 
     /// Writes an entity under the next number.
-    pub(super) fn entity(&mut self, entity: fmt::Arguments<'_>) -> Result<Id, Fault> {
+    pub(in crate::output) fn entity(&mut self, entity: fmt::Arguments<'_>) -> Result<Id, Fault> {
         let id = self.reserve();
         self.entity_as(id, entity)?;
         Ok(id)
     }
 
     /// Writes an entity under a number set aside before.
-    pub(super) fn entity_as(&mut self, id: Id, entity: fmt::Arguments<'_>) -> Result<(), Fault> {
+    pub(in crate::output) fn entity_as(
+        &mut self,
+        id: Id,
+        entity: fmt::Arguments<'_>,
+    ) -> Result<(), Fault> {
         // Only `Real` refuses to be formatted.
         writeln!(self.text, "{id}={entity};").map_err(|_| Fault::NotFinite)?;
         self.flush_from(CHUNK)
     }
 
     /// Hands everything to the output.
-    pub(super) fn finish(mut self) -> Result<(), Fault> {
+    pub(in crate::output) fn finish(mut self) -> Result<(), Fault> {
         self.flush_from(0)?;
         self.out.flush().map_err(Fault::Io)
     }
@@ -83,7 +87,7 @@ impl<'a> Part21<'a> {
 /// Part 21 wants a decimal point, and a capital E.  Formatting fails if the
 /// number is not finite.
 #[derive(Clone, Copy)]
-pub(super) struct Real(pub(super) f64);
+pub(in crate::output) struct Real(pub(in crate::output) f64);
 
 impl Display for Real {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -111,7 +115,7 @@ impl Display for Real {
 /// `'` and `\` are doubled; other characters go by code point, four digits
 /// between `\X2\` and `\X0\`, or eight between `\X4\` and `\X0\`.  So does a
 /// `'` that no letter or digit follows: OCCT takes `'')` for the end of a string.
-pub(super) struct Text<'a>(pub(super) &'a str);
+pub(in crate::output) struct Text<'a>(pub(in crate::output) &'a str);
 
 impl Display for Text<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -148,7 +152,7 @@ impl Display for Text<'_> {
 }
 
 /// Items in parentheses with commas between them.
-pub(super) struct List<I>(pub(super) I);
+pub(in crate::output) struct List<I>(pub(in crate::output) I);
 
 impl<I: Clone + IntoIterator<Item: Display>> Display for List<I> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -164,7 +168,7 @@ impl<I: Clone + IntoIterator<Item: Display>> Display for List<I> {
 }
 
 /// `.T.` or `.F.`
-pub(super) struct Flag(pub(super) bool);
+pub(in crate::output) struct Flag(pub(in crate::output) bool);
 
 impl Display for Flag {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
