@@ -161,8 +161,8 @@ def input_formats(text: str) -> tuple[str, ...]:
 
 BESO_ADVICE = (
     "{name} holds a volume result, which this beamwright does not read (it reads {formats}). "
-    "Export the surface: open the file in FreeCAD, select the FEM mesh of the last state, "
-    "FEM > Mesh > FEM mesh to mesh, and run the macro on the mesh it makes."
+    "Open the file in FreeCAD and run the macro on the FEM mesh of the last state: it takes its "
+    "surface."
 )
 
 

@@ -35,7 +35,7 @@ PATIENCE = 60.0
 
 #: Longest gap between two ticks of a timer of 10 Hz, seconds: a few ticks may be missed on a
 #: machine that is busy with other things.
-LONGEST_GAP = 0.4
+LONGEST_GAP = 0.8
 
 #: Pictures that are kept smaller for the README, with their names in freecad_macro/pictures.
 FOR_README = {

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 from typing import Any, Callable
 
+import Fem
 import FreeCAD as App
 import Mesh
 import ObjectsFem
@@ -185,6 +186,7 @@ def a_fused_solid_is_sound_or_is_not_there() -> None:
     doc = document("y_form.obj")
     inserted = reconstruct(doc, Source(meshes(doc)), options=Options(profile="round"), fuse=True)
     fused = doc.getObject("Fused")
+    say(f"       {inserted.notes[0]}")
     if fused is None:
         equal("separate solids" in " ".join(inserted.notes), True, "the reason is given")
         return
@@ -293,6 +295,34 @@ def by_fem(doc: Any) -> tuple[Source, NonDesign]:
     fixed = ObjectsFem.makeConstraintFixed(doc)
     fixed.References = [(b, f"Face{i + 1}") for b in keep for i in range(6)]
     return Source([whole(doc)]), NonDesign(FEM)
+
+
+def a_fem_mesh_is_taken_by_its_surface() -> None:
+    doc = document()
+    fem = doc.addObject("Fem::FemMeshObject", "Voxels")
+    fem.FemMesh = bar_of_hexahedra(4, 24)
+    surface = triangles_of(fem)
+    equal(surface.is_closed(), True, "the surface is closed")
+    equal(len(surface.facets), 2 * (2 * 4 * 4 + 4 * 4 * 24), "triangles of the surface")
+    group = reconstruct(doc, Source([fem])).group
+    check_group(group)
+
+
+def bar_of_hexahedra(wide: int, long: int) -> Any:
+    """A square bar along x, 1 mm to the edge of an element."""
+    mesh = Fem.FemMesh()
+    number = {}
+    for x in range(long + 1):
+        for y in range(wide + 1):
+            for z in range(wide + 1):
+                number[x, y, z] = mesh.addNode(float(x), float(y), float(z))
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    for x in range(long):
+        for y in range(wide):
+            for z in range(wide):
+                nodes = [number[x + i, y + j, z + k + up] for up in (0, 1) for i, j, k in corners]
+                mesh.addVolume(nodes)
+    return mesh
 
 
 # -- what is said when it fails --------------------------------------------------------------------
@@ -435,6 +465,7 @@ main(
     the_skeleton_is_coloured_by_how_well_it_is_centred,
     a_fused_solid_is_sound_or_is_not_there,
     every_way_to_say_non_design_finds_the_same_sets,
+    a_fem_mesh_is_taken_by_its_surface,
     a_refusal_leaves_the_document_alone,
     a_result_that_cannot_be_read_is_not_taken_in,
     a_missing_program_is_named_with_what_was_searched,

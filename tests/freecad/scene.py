@@ -51,7 +51,8 @@ def main(*checks: Callable[[], None], clean_up: Callable[[], None] = lambda: Non
 
 def say(text: str) -> None:
     """A line on the real standard output, which FreeCAD's console takes away from ``print``."""
-    os.write(1, (text + "\n").encode())
+    # On a line of its own: FreeCAD leaves its progress without an end.
+    os.write(1, f"\n{text}\n".encode())
 
 
 def equal(found: Any, expected: Any, what: str) -> None:

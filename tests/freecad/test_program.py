@@ -110,7 +110,9 @@ def test_a_program_that_is_not_there_is_refused() -> None:
 
 def test_a_volume_result_of_beso_is_refused_with_what_to_export() -> None:
     assert refusal_of_input(program(), "part.OBJ") is None
-    assert "Export the surface" in (refusal_of_input(program(), "file01_state1.frd") or "")
+    assert "on the FEM mesh of the last state" in (
+        refusal_of_input(program(), "file01_state1.frd") or ""
+    )
     assert "it reads .off .obj" in (refusal_of_input(program(), "part.3mf") or "")
 
 
