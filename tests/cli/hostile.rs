@@ -213,3 +213,23 @@ fn surfaces_that_are_no_body_are_told_with_what_is_missing() {
     let point = "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n";
     assert_refused("point.obj", point, &[]);
 }
+
+/// The bar with one corner of its shaft pulled out to a place: a needle, and a hole beside it.
+fn with_spike(x: f64) -> String {
+    let mut mesh = bar().mesh(2.0);
+    let shaft = mesh.positions.iter().position(|p| (p[0] - 25.0).abs() < 2.0 && p[2] > 3.0);
+    mesh.positions[shaft.expect("a corner on the shaft")] = [25.0, 0.3 * x, x];
+    mesh.obj()
+}
+
+#[test]
+fn a_corner_far_out_in_space_takes_no_memory() {
+    for reach in [300.0, 1e21, 1e150] {
+        let folder = folder_with("spike.obj", with_spike(reach));
+        let ran = reconstruct(folder.path(), "spike.obj".as_ref());
+        assert!(matches!(ran.code, Some(0 | 1)), "{reach}: {ran:?}");
+        if ran.code == Some(1) {
+            ran.failed(1);
+        }
+    }
+}

@@ -78,6 +78,10 @@ const BASE_OF_DIRECTION: f64 = 2.0;
 /// Largest turn of the front in one step, as a cosine: 25°. Sharper is a knee.
 const LARGEST_TURN: f64 = 0.906;
 
+/// Most fronts of one march. At half a radius a step this is a rod of a thousand diameters, longer
+/// than any strut; a needle asks for ever more, each smaller than the last.
+const MOST_FRONTS: usize = 4096;
+
 /// The march and the surface it has passed.
 #[derive(Debug)]
 pub(crate) struct March<'a> {
@@ -134,8 +138,9 @@ impl<'a> March<'a> {
     fn one_way(&mut self, seed: Front) -> Vec<Front> {
         let mut fronts = vec![seed];
         let mut part = 1.0;
-        // Every step advances by at least a sixteenth of a radius and no band is passed twice.
-        loop {
+        // Every step advances by at least a sixteenth of a radius and no band is passed twice; the
+        // count ends a march towards the tip of a needle, where radii and steps go to nothing.
+        while fronts.len() < MOST_FRONTS {
             match self.advance(&fronts, part) {
                 Ok(front) => {
                     let (lower, upper) = (fronts[fronts.len() - 1].plane, front.plane);
@@ -148,6 +153,7 @@ impl<'a> March<'a> {
                 Err(_) => return fronts,
             }
         }
+        fronts
     }
 
     /// One step of the march, `part` of the wanted step long.

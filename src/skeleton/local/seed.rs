@@ -20,7 +20,11 @@ pub(crate) struct Place {
     pub(crate) point: Point3<f64>,
 }
 
-/// Places spread over the design faces, one for about `area_each` mm².
+/// Most places of one mesh. Parts of a thousand struts have some ten thousand; a single corner far
+/// out in space would ask for more than there is memory.
+const MOST_PLACES: f64 = 65_536.0;
+
+/// Places spread over the design faces, one for about `area_each` mm², [`MOST_PLACES`] at most.
 ///
 /// Small triangles share a place; large ones are cut in halves until each part has one.
 pub(crate) fn places(
@@ -28,9 +32,12 @@ pub(crate) fn places(
     is_design: impl Fn(FaceId) -> bool,
     area_each: f64,
 ) -> Vec<Place> {
+    let design = || mesh.faces().filter(|f| is_design(*f));
+    let total: f64 = design().map(|f| 0.5 * mesh.doubled_area_vector(f).norm()).sum();
+    let area_each = area_each.max(total / MOST_PLACES);
     let mut places = Vec::new();
     let mut due = 0.5;
-    for face in mesh.faces().filter(|f| is_design(*f)) {
+    for face in design() {
         spread(face, mesh.corners(face), area_each, &mut due, &mut places);
     }
     places
