@@ -62,15 +62,10 @@ def _insert(doc: Any, result: Result, before: set[str]) -> Inserted:
         made += _insert_mesh(doc, result.source.file, result.unit)
 
     # From here on what was there before is changed: nothing below reads files any more.
-    if old is not None:
-        mine = [name for name in old.BeamwrightObjects if doc.getObject(name)]
-        remove(doc, with_contents(doc, mine))
-    group = old or doc.addObject("App::DocumentObjectGroup", "Beamwright")
-    label = result.source.label
-    group.Label, sheet.Label, text.Label = (
-        f"{what} {label}" for what in ("Beamwright", "Cut list", "Report")
-    )
-    top[0].Label = f"Frame {label}"
+    group = _emptied(doc, old) or doc.addObject("App::DocumentObjectGroup", "Beamwright")
+    for obj, what in ((group, "Beamwright"), (top[0], "Frame"), (sheet, "Cut list")):
+        obj.Label = f"{what} {result.source.label}"
+    text.Label = f"Report {result.source.label}"
     name_beams(named)
     fill_sheet(sheet, rows, result.source.label, beams)
     extra = [*notes, "", "Options of the run: " + (" ".join(result.chosen) or "the defaults")]
@@ -80,6 +75,14 @@ def _insert(doc: Any, result: Result, before: set[str]) -> Inserted:
     describe(group, result, [n for n in made_names if n != group.Name])
     reveal(result, group, beams, top)
     return Inserted(group, beams, notes)
+
+
+def _emptied(doc: Any, group: Any | None) -> Any | None:
+    """The group of an earlier run, without what that run made."""
+    if group is not None:
+        mine = [name for name in group.BeamwrightObjects if doc.getObject(name)]
+        remove(doc, with_contents(doc, mine))
+    return group
 
 
 def _insert_skeleton(doc: Any, skeleton: Skeleton) -> list[Any]:

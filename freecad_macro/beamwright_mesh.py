@@ -317,11 +317,6 @@ def _inside(crossings: list[tuple[float, int]]) -> float:
     return length
 
 
-# ---------------------------------------------------------------------------------------------
-# files
-# ---------------------------------------------------------------------------------------------
-
-
 def write_ply(path: str, mesh: Triangles) -> None:
     """Binary PLY; the labels, if any, as the face property ``int non_design``."""
     labelled = bool(mesh.labels)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Vectors and distances, and the volume of overlapping meshes; without FreeCAD.
-
-Lengths are in mm.
-"""
+"""The volume of overlapping closed meshes, without FreeCAD; lengths are in mm."""
 
 from __future__ import annotations
 
