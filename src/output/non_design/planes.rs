@@ -9,9 +9,6 @@ use crate::output::step::{Facet, Facets, Loop};
 /// single precision moves them by 1e-7 of it; the STEP writer calls faces flat up to 1e-5.
 const FLAT: f64 = 2e-6;
 
-/// A triangle turned further than 5° against a face is none of it, however flat.
-const SAME_SIDE: f64 = 0.996;
-
 /// The body with a face a plane; `None` where a face has no sound outline.
 pub(super) fn merged(body: &Closed) -> Option<Facets> {
     let planes = Planes::new(body, FLAT * body.reach());
@@ -62,7 +59,7 @@ impl<'a> Planes<'a> {
         while let Some(t) = stack.pop() {
             for twin in &self.body.twins[3 * t..3 * t + 3] {
                 let next = *twin as usize / 3;
-                if self.plane_of[next] == u32::MAX && self.belongs(next, &origin, &normal) {
+                if self.plane_of[next] == u32::MAX && self.lies_in(next, &origin, &normal) {
                     self.plane_of[next] = plane;
                     stack.push(next);
                 }
@@ -70,11 +67,11 @@ impl<'a> Planes<'a> {
         }
     }
 
-    fn belongs(&self, t: usize, origin: &Point3<f64>, normal: &Vector3<f64>) -> bool {
-        let corners = self.body.triangles[t];
-        let off = |&v: &u32| (self.point(v) - origin).dot(normal).abs() <= self.tolerance;
-        let own = self.body.doubled_area_vector(t);
-        corners.iter().all(off) && own.dot(normal) >= SAME_SIDE * own.norm()
+    /// Whether a triangle lies in a plane, whichever way it faces: a lid made of a fan may be folded
+    /// within its plane, and what lies twice over cancels.
+    fn lies_in(&self, t: usize, origin: &Point3<f64>, normal: &Vector3<f64>) -> bool {
+        let near = |&v: &u32| (self.point(v) - origin).dot(normal).abs() <= self.tolerance;
+        self.body.triangles[t].iter().all(near)
     }
 
     fn point(&self, v: u32) -> Point3<f64> {
