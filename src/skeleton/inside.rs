@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::detour::detour;
 use crate::mesh::id::FaceId;
 use crate::mesh::{HalfEdgeMesh, TriangleTree};
 
@@ -22,8 +23,21 @@ pub(crate) fn way_inside(
     a: &Point3<f64>,
     b: &Point3<f64>,
 ) -> Vec<Point3<f64>> {
-    let mut way = Vec::new();
-    halve(mesh, tree, a, b, HALVINGS, &mut way);
+    let mut halved = Vec::new();
+    halve(mesh, tree, a, b, HALVINGS, &mut halved);
+    if halved.is_empty() && !tree.is_crossed_by(a, b) {
+        return halved;
+    }
+    halved.push(*b);
+    let (mut way, mut at) = (Vec::new(), *a);
+    for next in halved {
+        if tree.is_crossed_by(&at, &next) {
+            way.extend(detour(mesh, tree, &at, &next).unwrap_or_default());
+        }
+        way.push(next);
+        at = next;
+    }
+    way.pop();
     way
 }
 

@@ -15,6 +15,7 @@
 //!
 //! Everything is relative to the size of the part; nothing depends on the frame it is given in.
 
+mod detour;
 pub mod error;
 pub mod global;
 pub mod graph;
