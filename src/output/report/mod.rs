@@ -2,12 +2,12 @@
 //!
 //! | part | what | file |
 //! |---|---|---|
-//! | page | the words and tables, readable without a script | `templates/report.html`, [`tables`] |
-//! | scene | geometry and figures of the 3D view as JSON | [`scene`], [`packed`] |
+//! | page | the words and tables, readable without a script | `templates/report.html`, `tables` |
+//! | scene | geometry and figures of the 3D view as JSON | `scene`, `packed` |
 //! | script | 3D view, sorting, searching, plots | `app.js`, `vendor/` |
 //!
 //! **Safety.** A mesh may come from anyone, and so may the names in it. The template engine escapes
-//! every text; the data block cannot end its element ([`script_safe`]); and the page forbids by a
+//! every text; the data block cannot end its element (`script_safe`); and the page forbids by a
 //! Content-Security-Policy everything but its own scripts and style, named by their SHA-256: no
 //! other script runs and nothing is fetched, whatever a name says.
 
