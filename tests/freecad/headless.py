@@ -403,6 +403,12 @@ def the_macro_file_runs_without_a_window() -> None:
             "-q",
             "-o",
             str(ARTEFACTS / "alone.step"),
+            "--report",
+            str(ARTEFACTS / "alone.html"),
+            "--sections",
+            str(ARTEFACTS / "alone.sections.json"),
+            "--export",
+            str(ARTEFACTS / "alone.mlp"),
         ],
         environment,
     )
