@@ -20,7 +20,13 @@ use super::profiles::ProfilesArgs;
 
 /// From a topology-optimized mesh to beams one can buy, cut and weld.
 #[derive(Debug, Parser)]
-#[command(name = "beamwright", version, max_term_width = 100, propagate_version = true)]
+#[command(
+    name = "beamwright",
+    version,
+    max_term_width = 100,
+    propagate_version = true,
+    args_override_self = true
+)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -32,17 +38,27 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Turn a mesh into beams: STEP assembly, cut list, skeleton
-    #[command(after_help = RECONSTRUCT_EXAMPLES)]
+    #[command(after_help = RECONSTRUCT_EXAMPLES, args_override_self = true)]
     Reconstruct(Box<ReconstructArgs>),
     /// March the skeleton of a mesh and write it
-    #[command(after_help = SKELETON_EXAMPLES)]
+    #[command(after_help = SKELETON_EXAMPLES, args_override_self = true)]
     Skeleton(SkeletonArgs),
     /// Measure skeletons: centeredness, topology, what lies outside
-    #[command(after_help = super::evaluate::EXAMPLES)]
+    #[command(after_help = super::evaluate::EXAMPLES, args_override_self = true)]
     Evaluate(EvaluateArgs),
     /// List and search the profiles of the catalogues
     #[command(after_help = super::profiles::EXAMPLES)]
     Profiles(ProfilesArgs),
+    /// Print the completions of a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, or that of a subcommand
+    Man {
+        /// The subcommand
+        command: Option<String>,
+    },
     /// Check a mesh: what was mended, labels per source, interface sections
     Inspect(InspectArgs),
 }
@@ -52,7 +68,9 @@ Examples:
   beamwright reconstruct part.obj -o part.step
   beamwright reconstruct part.stl --non-design pads.stl -o part.step --cut-list part.csv
   beamwright reconstruct part.ply -o part.step --skeleton part.json --json
-  beamwright reconstruct part.ply -o part.step --export part.mlp      (opens in MeshLab)";
+  beamwright reconstruct part.ply -o part.step --export part.mlp      (opens in MeshLab)
+  beamwright reconstruct *.stl --out-dir beams --joints trim
+  beamwright reconstruct part.obj -o part.step --config shop.toml";
 
 const SKELETON_EXAMPLES: &str = "\
 Examples:
@@ -71,6 +89,14 @@ pub(crate) struct GlobalArgs {
     #[arg(short, long, global = true, conflicts_with = "quiet")]
     pub(crate) verbose: bool,
 
+    /// Options from a file, one `name = value` a line; what is typed counts more
+    #[arg(long, global = true, value_name = "FILE.toml")]
+    pub(crate) config: Option<PathBuf>,
+
+    /// Write all options as they are to a file for --config, and end
+    #[arg(long, global = true, value_name = "FILE.toml")]
+    pub(crate) write_config: Option<PathBuf>,
+
     /// How progress is shown on standard error
     #[arg(long, global = true, value_name = "HOW", default_value = "auto")]
     pub(crate) progress: ProgressStyle,
@@ -86,7 +112,7 @@ pub(crate) enum ProgressStyle {
     None,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct ReconstructArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
@@ -98,6 +124,10 @@ pub(crate) struct ReconstructArgs {
     pub(crate) output: OutputArgs,
     #[command(flatten)]
     pub(crate) result: ResultArgs,
+
+    /// Further meshes, with --out-dir
+    #[arg(value_name = "IN", requires = "out_dir", help_heading = "Input")]
+    pub(crate) more: Vec<PathBuf>,
 }
 
 #[derive(Args, Debug)]
@@ -124,7 +154,7 @@ pub(crate) struct InspectArgs {
 }
 
 /// How the result is shown.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct ResultArgs {
     /// Print the result as JSON instead of a table
@@ -136,7 +166,7 @@ pub(crate) struct ResultArgs {
     pub(crate) strict: bool,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Input")]
 pub(crate) struct InputArgs {
     /// Mesh file: .off .obj .ply .stl .gltf .glb
@@ -179,7 +209,7 @@ impl FromStr for Corners {
     }
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Marching")]
 pub(crate) struct MarchArgs {
     /// Frame in which the identifier box is carried along
@@ -203,7 +233,7 @@ pub(crate) enum OrientationArg {
     Global,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Beams")]
 pub(crate) struct FrameArgs {
     /// Farthest a branch may bend away from one straight beam, in section radii
@@ -273,12 +303,17 @@ pub(crate) enum LoftArg {
     Multi,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct OutputArgs {
     /// STEP file with one named solid a beam
-    #[arg(short, long, value_name = "OUT.step")]
-    pub(crate) output: PathBuf,
+    #[arg(short, long, value_name = "OUT.step", required_unless_present = "out_dir")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Folder for the results of many meshes, each under its own name
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["output", "cut_list", "skeleton",
+        "sections", "export", "picture", "report"])]
+    pub(crate) out_dir: Option<PathBuf>,
 
     /// Cut list: .csv .json (default: beside the STEP file, ending .csv)
     #[arg(long, value_name = "FILE")]
@@ -325,8 +360,8 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "MM")]
     pub(crate) stock_length: Option<f64>,
 
-    /// Width of a saw cut, mm
-    #[arg(long, value_name = "MM", default_value_t = 2.0, requires = "stock_length")]
+    /// Width of a saw cut between pieces of a stock bar, mm
+    #[arg(long, value_name = "MM", default_value_t = 2.0)]
     pub(crate) kerf: f64,
 
     /// Leave the non-design parts out of the STEP file

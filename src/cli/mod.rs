@@ -1,6 +1,9 @@
 //! Parses what was typed, runs it, prints the result, and ends with the right exit code.
 
 mod args;
+mod batch;
+mod config;
+mod documents;
 mod evaluate;
 mod exit;
 mod export;
@@ -24,7 +27,11 @@ use self::progress::Progress;
 
 /// Runs the command line.
 pub(crate) fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let typed = match config::with_options(std::env::args_os()) {
+        Ok(typed) => typed,
+        Err(failure) => return ended(Err(failure)),
+    };
+    let cli = match Cli::try_parse_from(&typed) {
         Ok(cli) => cli,
         Err(error) => {
             // Help and version go to standard output and are no failure.
@@ -34,9 +41,14 @@ pub(crate) fn main() -> ExitCode {
             return if asked_for { Exit::Done } else { Exit::Usage }.into();
         }
     };
+    if let Some(file) = &cli.global.write_config {
+        return ended(config::write(file, &typed));
+    }
     progress::watch_for_interrupt();
     let mut progress = Progress::new(&cli.global);
-    let ended = match &cli.command {
+    let end = match &cli.command {
+        Command::Completions { shell } => documents::completions(*shell),
+        Command::Man { command } => documents::manual(command.as_deref()),
         Command::Reconstruct(args) => reconstruct::run(args, &cli.global, &mut progress),
         Command::Skeleton(args) => skeleton::run(args, &cli.global, &mut progress),
         Command::Evaluate(args) => evaluate::run(args, &cli.global, &mut progress),
@@ -44,7 +56,11 @@ pub(crate) fn main() -> ExitCode {
         Command::Inspect(args) => inspect::run(args, &cli.global, &mut progress),
     };
     progress.finish();
-    match ended {
+    ended(end)
+}
+
+fn ended(end: Result<Exit, Failure>) -> ExitCode {
+    match end {
         Ok(exit) => exit.into(),
         Err(Failure { exit, message }) => {
             eprintln!("error: {message}");

@@ -19,7 +19,20 @@ use super::progress::Progress;
 use super::skeleton::skeleton_format;
 use super::{show, targets};
 
+/// One mesh, or many into one folder.
 pub(crate) fn run(
+    args: &ReconstructArgs,
+    global: &GlobalArgs,
+    progress: &mut Progress,
+) -> Result<Exit, Failure> {
+    match &args.output.out_dir {
+        Some(folder) => super::batch::run(args, folder, global, progress),
+        None => run_one(args, global, progress),
+    }
+}
+
+/// From one mesh to its beams.
+pub(crate) fn run_one(
     args: &ReconstructArgs,
     global: &GlobalArgs,
     progress: &mut Progress,
@@ -71,7 +84,7 @@ struct Targets {
 impl Targets {
     /// Checks every target before the work begins.
     fn new(args: &ReconstructArgs) -> Result<Self, Failure> {
-        let step = args.output.output.clone();
+        let step = args.output.output.clone().unwrap_or_default();
         let is_step = step
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("step") || e.eq_ignore_ascii_case("stp"));

@@ -1,0 +1,150 @@
+//! Options from a file: every long flag by its name.
+//!
+//! ```toml
+//! profile = "catalogue:CHS"
+//! joints = "trim"
+//! continuous = true
+//! non-design-name = ["pad*", "fixed"]
+//! ```
+//!
+//! The options of the file are put before what was typed, so that what was typed counts more; lists
+//! are joined. A file may serve several subcommands: options that another one has are passed over.
+
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
+
+use beamwright::output::{OutputFiles, check_target};
+use clap::{Arg, ArgAction, ArgMatches, Command, CommandFactory};
+use toml::{Table, Value};
+
+use super::args::Cli;
+use super::exit::{Exit, Failure};
+
+/// Options that say what this one run reads and writes: no part of a file for many runs.
+const OF_ONE_RUN: [&str; 14] = [
+    "config",
+    "write-config",
+    "output",
+    "out-dir",
+    "cut-list",
+    "skeleton",
+    "sections",
+    "export",
+    "picture",
+    "report",
+    "compare",
+    "non-design",
+    "help",
+    "version",
+];
+
+/// What was typed, with the options of its `--config` put behind the subcommand.
+///
+/// # Errors
+/// A file that cannot be read, is no TOML, or has an option that no subcommand knows.
+pub(crate) fn with_options(
+    typed: impl IntoIterator<Item = OsString>,
+) -> Result<Vec<OsString>, Failure> {
+    let mut typed: Vec<OsString> = typed.into_iter().collect();
+    let Some(path) = config_of(&typed) else { return Ok(typed) };
+    let all = Cli::command();
+    let place = typed.iter().position(|w| all.find_subcommand(w).is_some());
+    let Some(place) = place else { return Ok(typed) };
+    let path = Path::new(&path);
+    let fault = |what: &dyn std::fmt::Display| {
+        Failure::usage(format!("cannot use the options of {}: {what}", path.display()))
+    };
+    let text = std::fs::read_to_string(path).map_err(|e| fault(&e))?;
+    let table: Table = text.parse().map_err(|e: toml::de::Error| fault(&e))?;
+    let mut words = Vec::new();
+    for (name, value) in &table {
+        let of = |command: &Command| flag(command, name).cloned();
+        let here = all.find_subcommand(&typed[place]).and_then(of).or_else(|| of(&all));
+        match here {
+            Some(arg) => words.extend(words_of(&arg, name, value).map_err(|e| fault(&e))?),
+            None if all.get_subcommands().any(|c| of(c).is_some()) => {}
+            None => return Err(fault(&format!("there is no option {name}"))),
+        }
+    }
+    typed.splice(place + 1..=place, words);
+    Ok(typed)
+}
+
+/// The file named by `--config FILE` or `--config=FILE`.
+fn config_of(typed: &[OsString]) -> Option<OsString> {
+    typed.iter().enumerate().find_map(|(i, word)| {
+        if word == "--config" {
+            return typed.get(i + 1).cloned();
+        }
+        word.to_str()?.strip_prefix("--config=").map(OsString::from)
+    })
+}
+
+fn flag<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
+    command.get_arguments().find(|a| a.get_long() == Some(name))
+}
+
+/// The words one would type for an option.
+fn words_of(arg: &Arg, name: &str, value: &Value) -> Result<Vec<OsString>, String> {
+    let word = |value: &Value| match value {
+        Value::String(text) => Ok(OsString::from(format!("--{name}={text}"))),
+        Value::Integer(_) | Value::Float(_) => Ok(format!("--{name}={value}").into()),
+        _ => Err(format!("the option {name} takes no {}", value.type_str())),
+    };
+    match value {
+        Value::Boolean(on) if !arg.get_action().takes_values() => {
+            Ok(if *on { vec![format!("--{name}").into()] } else { Vec::new() })
+        }
+        _ if !arg.get_action().takes_values() => Err(format!("the option {name} is true or false")),
+        Value::Array(values) if matches!(arg.get_action(), ArgAction::Append) => {
+            values.iter().map(word).collect()
+        }
+        value => Ok(vec![word(value)?]),
+    }
+}
+
+/// Writes all options of a run, given or not, as a file for `--config`.
+///
+/// # Errors
+/// What creating the file fails with.
+pub(crate) fn write(file: &Path, typed: &[OsString]) -> Result<Exit, Failure> {
+    let all = Cli::command();
+    let matches = all.clone().try_get_matches_from(typed).map_err(Failure::usage)?;
+    let Some((name, matches)) = matches.subcommand() else { return Ok(Exit::Done) };
+    let Some(command) = all.find_subcommand(name) else { return Ok(Exit::Done) };
+    let mut text = format!("# Options of beamwright {name}; see beamwright {name} --help.\n");
+    for arg in command.get_arguments() {
+        let Some(long) = arg.get_long().filter(|l| !OF_ONE_RUN.contains(l)) else { continue };
+        let help = arg.get_help().map(|h| h.to_string()).unwrap_or_default();
+        text += &format!("\n# {help}\n");
+        text += &match value_of(arg, matches) {
+            Some(value) => format!("{long} = {value}\n"),
+            None => format!("# {long} =\n"),
+        };
+    }
+    check_target(file).map_err(Failure::input)?;
+    let mut files = OutputFiles::default();
+    files.add(file, |out| out.write_all(text.as_bytes())).map_err(Failure::input)?;
+    files.commit().map_err(Failure::input)?;
+    Ok(Exit::Done)
+}
+
+/// The value of an option in this run.
+fn value_of(arg: &Arg, matches: &ArgMatches) -> Option<Value> {
+    let id = arg.get_id().as_str();
+    if !arg.get_action().takes_values() {
+        return Some(Value::Boolean(matches.get_flag(id)));
+    }
+    let mut values = matches.get_raw(id)?.map(typed_value);
+    if matches!(arg.get_action(), ArgAction::Append) {
+        return Some(Value::Array(values.collect()));
+    }
+    values.next()
+}
+
+fn typed_value(word: &OsStr) -> Value {
+    let text = word.to_string_lossy();
+    let integer = || text.parse().ok().map(Value::Integer);
+    let float = || text.parse().ok().filter(|x: &f64| x.is_finite()).map(Value::Float);
+    integer().or_else(float).unwrap_or_else(|| Value::String(text.into_owned()))
+}

@@ -1,0 +1,91 @@
+//! Many meshes in one run, options from a file, and what the command line knows of itself.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn sample(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("samples").join(name)
+}
+
+fn beamwright(folder: &Path, words: &[&str]) -> std::io::Result<Output> {
+    Command::new(env!("CARGO_BIN_EXE_beamwright")).current_dir(folder).args(words).output()
+}
+
+#[test]
+fn one_bad_file_does_not_stop_the_rest() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    std::fs::write(folder.path().join("bad.obj"), "no mesh\n")?;
+    let [bar, y] = [sample("single_bar.obj"), sample("y_form.obj")];
+    let (bar, y) = (bar.to_string_lossy(), y.to_string_lossy());
+    let words = ["reconstruct", &bar, "bad.obj", &y, "--out-dir", "out"];
+    let done = beamwright(folder.path(), &words)?;
+    assert_eq!(done.status.code(), Some(1));
+    let error = String::from_utf8(done.stderr)?;
+    assert!(error.contains("error: bad.obj: "), "{error}");
+    assert!(error.contains("1 of 3 meshes failed: bad.obj"), "{error}");
+    for name in ["single_bar.step", "single_bar.csv", "y_form.step", "y_form.skeleton.json"] {
+        assert!(folder.path().join("out").join(name).is_file(), "{name}");
+    }
+    Ok(())
+}
+
+#[test]
+fn two_meshes_of_one_name_are_refused_before_any_work() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let bar = sample("single_bar.obj");
+    let bar = bar.to_string_lossy();
+    let done = beamwright(folder.path(), &["reconstruct", &bar, &bar, "--out-dir", "out"])?;
+    assert_eq!(done.status.code(), Some(2));
+    assert!(!folder.path().join("out").exists());
+    Ok(())
+}
+
+#[test]
+fn options_written_to_a_file_give_the_same_result_when_read() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let bar = sample("single_bar.obj");
+    let bar = bar.to_string_lossy();
+    let typed = ["--profile", "rectangle", "--joints", "trim", "--material", "S355"];
+    let mut words = vec!["reconstruct", &bar, "-o", "a.step"];
+    words.extend(typed);
+    assert!(beamwright(folder.path(), &words)?.status.success());
+    words.extend(["--write-config", "shop.toml"]);
+    assert!(beamwright(folder.path(), &words)?.status.success());
+    let words = ["reconstruct", &bar, "-o", "b.step", "--config", "shop.toml"];
+    assert!(beamwright(folder.path(), &words)?.status.success());
+    let read = |name: &str| std::fs::read(folder.path().join(name));
+    assert_eq!(read("a.csv")?, read("b.csv")?);
+    assert!(String::from_utf8(read("b.csv")?)?.contains("S355"));
+    // What is typed counts more than the file.
+    let words = ["reconstruct", &bar, "-o", "c.step", "--config", "shop.toml", "--material", "X"];
+    assert!(beamwright(folder.path(), &words)?.status.success());
+    assert!(!String::from_utf8(read("c.csv")?)?.contains("S355"));
+    Ok(())
+}
+
+#[test]
+fn an_unknown_option_in_the_file_is_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    std::fs::write(folder.path().join("a.toml"), "profil = \"round\"\n")?;
+    let words = ["reconstruct", "x.obj", "-o", "x.step", "--config", "a.toml"];
+    let done = beamwright(folder.path(), &words)?;
+    assert_eq!(done.status.code(), Some(2));
+    let error = String::from_utf8(done.stderr)?;
+    assert_eq!(error, "error: cannot use the options of a.toml: there is no option profil\n");
+    Ok(())
+}
+
+#[test]
+fn completions_and_manual_pages_are_printed() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for shell in ["bash", "zsh", "fish"] {
+        let done = beamwright(folder.path(), &["completions", shell])?;
+        assert!(done.status.success() && done.stdout.len() > 1000, "{shell}");
+    }
+    let page = beamwright(folder.path(), &["man", "reconstruct"])?;
+    assert!(String::from_utf8(page.stdout)?.contains(".SH SYNOPSIS"));
+    assert_eq!(beamwright(folder.path(), &["man", "nothing"])?.status.code(), Some(2));
+    Ok(())
+}
