@@ -4,11 +4,27 @@ use nalgebra::{Point3, Vector3};
 
 use super::detour::detour;
 use crate::mesh::id::FaceId;
-use crate::mesh::{HalfEdgeMesh, TriangleTree};
+use crate::mesh::{HalfEdgeMesh, InterfaceSection, Surface, TriangleTree};
 
 /// Halvings of a segment that leaves the object. A quarter circle in a ring is followed within a
 /// thousandth of its radius after six.
 const HALVINGS: usize = 6;
+
+/// A branch that ends in a flat face stops this part of the section's radius behind it: far more than
+/// the rounding of coordinates, far less than anybody measures.
+const BEHIND_FACE: f64 = 1e-6;
+
+/// Where a branch ends in an interface section: its centre.
+///
+/// Where the non-design part is a mere face, without any thickness, the centre lies on the surface,
+/// and is taken a trifle behind it.
+pub(crate) fn end_in(surface: &Surface, section: &InterfaceSection) -> Point3<f64> {
+    let trifle = BEHIND_FACE * section.radius();
+    let behind = section.centroid + section.normal * trifle;
+    let to_surface = surface.tree.nearest(&section.centroid).map(|n| n.0 - section.centroid);
+    let on_surface = to_surface.is_some_and(|v| v.norm() < trifle);
+    if on_surface && surface.tree.contains(&behind) { behind } else { section.centroid }
+}
 
 /// Whether a segment runs inside, its ends included.
 pub(crate) fn is_inside(tree: &TriangleTree, a: &Point3<f64>, b: &Point3<f64>) -> bool {

@@ -50,6 +50,7 @@ use self::sketch::Sketch;
 use super::Marched;
 use super::error::SkeletonError;
 use super::graph::{PointKind, SkeletalPoint};
+use super::inside::end_in;
 use super::params::SkeletonParams;
 use crate::mesh::{InterfaceKind, InterfaceSection, Surface};
 use crate::observer::{Observer, Stage};
@@ -107,6 +108,7 @@ struct Run<'a> {
     sketch: Sketch,
     /// Point of each interface section, once a branch has reached it.
     point_of_interface: Vec<Option<u32>>,
+    surface: &'a Surface,
     interfaces: &'a [InterfaceSection],
     /// l_b where no interface section gives one, mm.
     mean_radius: f64,
@@ -133,6 +135,7 @@ impl<'a> Run<'a> {
             marcher: Marcher { scanner, interface_of, width_ratio: params.width_ratio, extent },
             sketch: Sketch::default(),
             point_of_interface: vec![None; surface.interfaces.len()],
+            surface,
             interfaces: &surface.interfaces,
             mean_radius: surface.mean_radius(),
         })
@@ -229,7 +232,7 @@ impl<'a> Run<'a> {
     fn interface_point(&mut self, i: usize) -> u32 {
         let section = &self.interfaces[i];
         let point = SkeletalPoint {
-            position: section.centroid,
+            position: end_in(self.surface, section),
             radius: section.radius(),
             kind: PointKind::Interface,
         };

@@ -61,11 +61,15 @@ fn inner_curve(surface: &Surface, curve: &[Point3<f64>]) -> Vec<Point3<f64>> {
     inner
 }
 
+/// Most pieces of one branch: a branch a thousand radii long has as many, and one that is longer
+/// has long pieces instead of taking all memory.
+const MOST_PIECES: f64 = 4096.0;
+
 /// Points along a polyline at equal distances near `step`, in `least` pieces at least; both ends
 /// included.
 pub(crate) fn spaced(curve: &[Point3<f64>], step: f64, least: usize) -> Vec<Point3<f64>> {
     let total: f64 = curve.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    let count = ((total / step).round() as usize).max(least);
+    let count = ((total / step).round().min(MOST_PIECES) as usize).max(least);
     (0..=count).map(|k| curve_point(curve, k, count)).collect()
 }
 

@@ -12,7 +12,8 @@ use super::march::Tube;
 use super::patch::CutSide;
 use super::search::Found;
 use crate::mesh::id::HalfEdgeId;
-use crate::mesh::{InterfaceKind, InterfaceSection, Surface};
+use crate::mesh::{InterfaceKind, Surface};
+use crate::skeleton::inside::end_in;
 
 /// One section on the way of a run.
 #[derive(Clone, Copy, Debug)]
@@ -96,11 +97,15 @@ pub(crate) struct Draft {
 
 impl Draft {
     /// Joins the pieces and tubes of the cut surface.
-    pub(crate) fn new(found: &Found, interfaces: &[InterfaceSection]) -> Self {
+    pub(crate) fn new(found: &Found, surface: &Surface) -> Self {
+        let interfaces = &surface.interfaces;
         let mut draft = Self::default();
         let mut ends: Vec<[Option<usize>; 2]> = vec![[None; 2]; found.tubes.len()];
         draft.hubs.extend(
-            interfaces.iter().enumerate().map(|(i, s)| Hub::new(HubKind::Interface(i), s.centroid)),
+            interfaces
+                .iter()
+                .enumerate()
+                .map(|(i, section)| Hub::new(HubKind::Interface(i), end_in(surface, section))),
         );
         for patch in &found.patches.all {
             let sections: Vec<usize> = patch

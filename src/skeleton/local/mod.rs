@@ -35,7 +35,7 @@ mod seed;
 mod simplify;
 mod trend;
 
-use self::draft::Draft;
+use self::draft::{Draft, HubKind};
 use self::march::March;
 use super::Marched;
 use super::error::SkeletonError;
@@ -56,13 +56,28 @@ pub fn skeleton(
     let mean_radius = surface.mean_radius();
     let mut march = March::new(surface, params);
     let found = search::find_tubes(&mut march, mean_radius, observer)?;
-    let mut draft = Draft::new(&found, &surface.interfaces);
+    let mut draft = Draft::new(&found, surface);
     if draft.runs.is_empty() {
         return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }
     simplify::simplify(&mut draft, surface);
+    if draft.runs.len() == 1 && is_block(&draft) {
+        return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
+    }
     let skeleton = assemble::assemble(surface, params.step * mean_radius, &draft);
     Ok(Marched { skeleton, findings: findings(surface, &draft) })
+}
+
+/// A single rod with free ends is shorter than this many of its radii when it is a block: a cube is
+/// 1.4 long, a bar twice as long as it is thick 3.5.
+const BLOCK: f64 = 2.0;
+
+/// Whether the only run of a part with free ends is too short to be a beam.
+fn is_block(draft: &Draft) -> bool {
+    let run = &draft.runs[0];
+    let [a, b] = run.hubs.map(|h| &draft.hubs[h]);
+    let is_free = a.kind == HubKind::Tip && b.kind == HubKind::Tip;
+    is_free && (a.position - b.position).norm() < BLOCK * run.radius()
 }
 
 fn findings(surface: &Surface, draft: &Draft) -> Vec<Finding> {
