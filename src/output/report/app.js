@@ -87,7 +87,8 @@
   // ---- 3D view ---------------------------------------------------------------------------------
 
   const KIND = { interface: 0, branch: 1, junction: 2, end: 3 };
-  const CHOSEN = "#ff9d00";
+  const CHOSEN = "#ff1fc7";
+  const REST = "#9aa0a8";
   const LOOKS = { isometric: [1, -1, 1], front: [0, -1, 0], top: [0, -1e-3, 1], side: [1, 0, 0] };
 
   class Viewer {
@@ -120,13 +121,13 @@
       this.box = new V.Box3().setFromBufferAttribute(places);
       this.size = this.box.getSize(new V.Vector3()).length() || 1;
       this.layers.mesh = this.surface(places, scene.mesh.design, 0x9aa7b8, 0.22);
-      this.layers.nonDesign = this.surface(places, scene.mesh.nonDesign, 0xc94b41, 0.38);
+      this.layers.nonDesign = this.surface(places, scene.mesh.nonDesign, 0xc94b41, 0.2);
       this.layers.beams = this.solids();
       const { skeleton } = scene;
       const segments = skeleton.branches.flatMap((b) => b.slice(1).map((p, i) => [b[i], p]));
       this.layers.skeleton = this.lines(skeleton.points, segments, style("--ink"), true);
       const junctions = skeleton.points.filter((_, i) => skeleton.kinds[i] === KIND.junction);
-      this.layers.junctions = this.balls(junctions, 0.0045, 0xd81b60);
+      this.layers.junctions = this.balls(junctions, 0.0045, 0x6a3dff);
       const out = [[skeleton.points, skeleton.outside], ...scene.peers.map((p) => [p.points, p.outside])];
       this.layers.outside = this.balls(out[0][1].map((i) => out[0][0][i]), 0.007, 0x000000);
       this.layers.outlines = this.outlines();
@@ -196,14 +197,14 @@
       return balls;
     }
 
-    /** Gives each beam its colour; the chosen one stands out. */
+    /** Gives each beam its colour; the chosen one stands out, the others pale. */
     paint(colours, chosen) {
       const { geometry } = this.layers.beams;
       const colour = geometry.getAttribute("color");
       const corners = geometry.getIndex().array;
       const { starts } = scene.beamMesh;
       colours.forEach((own, beam) => {
-        const shown = beam === chosen ? new Vendor.Color(CHOSEN) : own;
+        const shown = beam === chosen ? new Vendor.Color(CHOSEN) : own.clone().lerp(new Vendor.Color(REST), chosen < 0 ? 0 : 0.6);
         for (let i = 3 * starts[beam]; i < 3 * starts[beam + 1]; i++) colour.setXYZ(corners[i], shown.r, shown.g, shown.b);
       });
       colour.needsUpdate = true;
@@ -217,23 +218,30 @@
 
     look(name) {
       const towards = new Vendor.Vector3(...(LOOKS[name] ?? this.camera.position.clone().sub(this.controls.target).toArray())).normalize();
-      this.aim(this.box.getCenter(new Vendor.Vector3()), towards, this.fitting(towards));
+      const { target, distance } = this.fitting(towards);
+      this.aim(target, towards, distance);
     }
 
-    /** Distance from which the whole mesh is seen. */
+    /** Where to look from a direction, and from how far, to see the whole mesh. */
     fitting(towards) {
       const V = Vendor;
-      const middle = this.box.getCenter(new V.Vector3());
       const right = new V.Vector3(0, 0, 1).cross(towards).normalize();
-      const up = towards.clone().cross(right);
+      const axes = [right, towards.clone().cross(right), towards];
+      const places = this.layers.mesh.geometry.getAttribute("position");
+      const point = new V.Vector3();
+      const seen = Array.from({ length: places.count }, (_, i) => {
+        point.fromBufferAttribute(places, i);
+        return axes.map((axis) => point.dot(axis));
+      });
+      const middle = axes.map((_, k) => {
+        const [low, high] = seen.reduce(([l, h], p) => [Math.min(l, p[k]), Math.max(h, p[k])], [Infinity, -Infinity]);
+        return (low + high) / 2;
+      });
       const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
-      let far = 0;
-      for (let i = 0; i < 8; i++) {
-        const corner = new V.Vector3(...["x", "y", "z"].map((k, b) => (i & (1 << b) ? this.box.max : this.box.min)[k])).sub(middle);
-        const [x, y] = [Math.abs(corner.dot(right)) / (tangent * this.camera.aspect), Math.abs(corner.dot(up)) / tangent];
-        far = Math.max(far, corner.dot(towards) + Math.max(x, y));
-      }
-      return 1.06 * far || 1;
+      const reach = ([x, y, z]) => z - middle[2] + Math.max(Math.abs(x - middle[0]) / (tangent * this.camera.aspect), Math.abs(y - middle[1]) / tangent);
+      const distance = 1.06 * seen.reduce((far, p) => Math.max(far, reach(p)), 0) || 1;
+      const target = axes.reduce((sum, axis, k) => sum.addScaledVector(axis, middle[k]), new V.Vector3());
+      return { target, distance };
     }
 
     aim(target, towards, distance) {
@@ -468,19 +476,19 @@
     const counts = new Array(BINS).fill(0);
     for (const x of known) counts[Math.min(Math.floor((x / top) * BINS), BINS - 1)]++;
     const middles = counts.map((_, i) => ((i + 0.5) * top) / BINS);
-    plot("plot-offset", bars("offset, radii", "points", "#009e73"), [middles, counts]);
+    plot("plot-offset", bars("offset, radii", "points", "#009e73", [0, top]), [middles, counts]);
   }
 
   function plotErrors() {
     const errors = scene.beams.map((b) => (b.error === null ? null : 100 * b.error));
-    const options = bars("beam", "error, %", "#cc79a7");
+    const options = bars("beam", "error, %", "#cc79a7", [0.4, errors.length + 0.6]);
     options.series[0].value = (u, v) => scene.beams[v - 1]?.mark ?? "–";
     plot("plot-error", options, [errors.map((_, i) => i + 1), errors]);
   }
 
-  function bars(x, y, colour) {
+  function bars(x, y, colour, range) {
     return {
-      scales: { x: { time: false }, y: { range: (u, low, high) => [0, 1.1 * high || 1] } },
+      scales: { x: { time: false, range }, y: { range: (u, low, high) => [0, 1.1 * high || 1] } },
       series: [
         { label: x, value: (u, v) => figure(v) },
         { label: y, stroke: colour, fill: colour, paths: Vendor.uPlot.paths.bars({ size: [0.85, 60] }), points: { show: false }, value: (u, v) => figure(v) },
@@ -505,6 +513,13 @@
   }
   $("theme").addEventListener("click", () => setTheme(root.dataset.theme === "dark" ? "light" : "dark"));
   dark.addEventListener("change", (e) => setTheme(e.matches ? "dark" : "light"));
+
+  let before = "light";
+  addEventListener("beforeprint", () => {
+    before = root.dataset.theme;
+    setTheme("light");
+  });
+  addEventListener("afterprint", () => setTheme(before));
 
   for (const [i] of scene.skeleton.branches.entries()) $("branch").append(new Option(`${i + 1}`, String(i)));
   $("branch").addEventListener("change", plotBranch);
