@@ -122,8 +122,7 @@ class Loop(InFolder):
         self.assertEqual(min(centre.vertex_scalar_array()), 0.0)
 
         counted = Counter(int(n) for n in beams.face_scalar_array())
-        rows = project.with_suffix(".csv").read_text().splitlines()
-        named = {row.split(",")[0] for row in rows if row.startswith("B0")}
+        named = {row["mark"] for row in summary["frame"]["table"]}
         self.assertEqual({f"B{n:03}" for n in counted}, named)
 
     def test_the_clean_up_changes_nothing_on_a_sound_mesh(self) -> None:
