@@ -10,20 +10,29 @@ use crate::mesh::{HalfEdgeMesh, InterfaceSection, Surface, TriangleTree};
 /// thousandth of its radius after six.
 const HALVINGS: usize = 6;
 
-/// A branch that ends in a flat face stops this part of the section's radius behind it: far more than
-/// the rounding of coordinates, far less than anybody measures.
-const BEHIND_FACE: f64 = 1e-6;
+/// Where the centre of an interface section lies on the surface, its branch stops this part of the
+/// radius behind it, the first that is inside. On a plane face a trifle is enough: far more than the
+/// rounding of coordinates, far less than anybody measures. A rough face bulges by hundredths.
+const BEHIND_FACE: [f64; 4] = [1e-6, 1e-3, 1e-2, 1e-1];
 
 /// Where a branch ends in an interface section: its centre.
 ///
-/// Where the non-design part is a mere face, without any thickness, the centre lies on the surface,
-/// and is taken a trifle behind it.
+/// Where the non-design part is a mere face, without any thickness, the centre lies on the surface
+/// or a little off it, and is taken a little behind it.
 pub(crate) fn end_in(surface: &Surface, section: &InterfaceSection) -> Point3<f64> {
-    let trifle = BEHIND_FACE * section.radius();
-    let behind = section.centroid + section.normal * trifle;
-    let to_surface = surface.tree.nearest(&section.centroid).map(|n| n.0 - section.centroid);
-    let on_surface = to_surface.is_some_and(|v| v.norm() < trifle);
-    if on_surface && surface.tree.contains(&behind) { behind } else { section.centroid }
+    let trifle = BEHIND_FACE[0] * section.radius();
+    let is_within = |p: &Point3<f64>| {
+        let foot = surface.tree.nearest(p).map(|n| (n.0 - p).norm());
+        surface.tree.contains(p) && foot.is_none_or(|distance| distance >= 0.5 * trifle)
+    };
+    if is_within(&section.centroid) {
+        return section.centroid;
+    }
+    BEHIND_FACE
+        .iter()
+        .map(|part| section.centroid + section.normal * (part * section.radius()))
+        .find(is_within)
+        .unwrap_or(section.centroid)
 }
 
 /// Whether a segment runs inside, its ends included.

@@ -1,0 +1,74 @@
+//! What always holds of a skeleton, over families of parts with known topology.
+
+mod common;
+
+use beamwright::skeleton::{Marched, SkeletonError, SkeletonParams, march};
+use common::TestMesh;
+use common::families::{cylinder, cylinder_between_pads, quarter_bend, together, torus};
+use common::frame;
+
+fn marched(mesh: &TestMesh) -> Result<Marched, SkeletonError> {
+    march(&mesh.surface(), &SkeletonParams::default(), &mut ())
+}
+
+/// Parts with the components and cycles their skeletons must have.
+fn parts() -> Vec<(&'static str, TestMesh, [usize; 2])> {
+    vec![
+        ("cylinder", cylinder(2.0, 40.0, 24, 20), [1, 0]),
+        ("cylinder without points along its shaft", cylinder(2.0, 40.0, 24, 1), [1, 0]),
+        ("prism of three sides", cylinder(2.0, 40.0, 3, 1), [1, 0]),
+        ("cylinder between pads", cylinder_between_pads(2.0, 40.0, 24, 8), [1, 0]),
+        ("ring without junction", torus(20.0, 3.0), [1, 1]),
+        ("quarter of a ring", quarter_bend(20.0, 3.0), [1, 0]),
+        (
+            "two bodies",
+            together(&[cylinder(2.0, 40.0, 24, 20), shifted(&torus(20.0, 3.0))]),
+            [2, 1],
+        ),
+        ("taper", frame::taper().mesh(1.0), [1, 0]),
+        ("corner", frame::corner().mesh(1.0), [1, 0]),
+        ("tee", frame::tee().mesh(1.0), [1, 0]),
+        ("cross", frame::cross().mesh(1.0), [1, 0]),
+        ("table", frame::table().mesh(1.0), [1, 1]),
+        ("cube of struts without labels", frame::cube().mesh(1.0), [1, 5]),
+        ("close pair of junctions", frame::close_pair().mesh(1.0), [1, 0]),
+    ]
+}
+
+fn shifted(mesh: &TestMesh) -> TestMesh {
+    mesh.mapped(|[x, y, z]| [x + 100.0, y, z])
+}
+
+/// Every point moved by up to `size`, the same way at every run.
+fn with_noise(mesh: &TestMesh, size: f64) -> TestMesh {
+    let mut state = 1u64;
+    let mut random = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0
+    };
+    let mut noisy = mesh.clone();
+    noisy.positions.iter_mut().flatten().for_each(|x| *x += size * random());
+    noisy
+}
+
+fn assert_sound(name: &str, mesh: &TestMesh, [components, cycles]: [usize; 2]) {
+    let marched = marched(mesh).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let skeleton = &marched.skeleton;
+    let breaches: Vec<_> = marched.findings.iter().filter(|f| f.breach).collect();
+    assert!(breaches.is_empty(), "{name}: {breaches:?}");
+    assert_eq!([skeleton.components(), skeleton.cycle_rank()], [components, cycles], "{name}");
+}
+
+#[test]
+fn every_skeleton_lies_inside_and_has_the_tunnels_of_its_part() {
+    for (name, mesh, topology) in parts() {
+        assert_sound(name, &mesh, topology);
+    }
+}
+
+#[test]
+fn noise_of_a_twentieth_of_an_edge_changes_no_topology() {
+    for (name, mesh, topology) in parts().into_iter().filter(|p| p.0 != "prism of three sides") {
+        assert_sound(name, &with_noise(&mesh, 0.05), topology);
+    }
+}
