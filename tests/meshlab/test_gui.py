@@ -57,9 +57,6 @@ class MeshLab:
 
     def __enter__(self) -> MeshLab:
         wait_for("opening", self.has_opened)
-        # The name matches helper windows as well: the last one is the one with the title.
-        windows = xdotool("search", "--onlyvisible", "--name", "MeshLab").split()
-        xdotool("windowmove", windows[-1], 0, 0, "windowsize", windows[-1], 1400, 900)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -76,10 +73,20 @@ class MeshLab:
         if self.process.poll() is not None:
             raise AssertionError(f"MeshLab ended: {self.log.read_text(errors='replace')}")
 
+    def fills_the_screen(self) -> bool:
+        """Asks the window to grow; whether it has. One that is just coming up does not listen."""
+        self.is_alive()
+        # The name matches helper windows as well: the last one is the one with the title.
+        windows = xdotool("search", "--onlyvisible", "--name", "MeshLab").split()
+        for window in windows[-1:]:
+            xdotool("windowmove", window, 0, 0, "windowsize", window, 1400, 900)
+        time.sleep(0.3)
+        # The corner is black until the window reaches it.
+        return bool(shot()[40, 1390].any())
+
     def turn(self) -> None:
         """Turns the view, so that nothing is seen end on."""
-        # The corner is black until the window reaches it.
-        wait_for("growing", lambda: shot()[40, 1390].any())
+        wait_for("growing", self.fills_the_screen)
         wait_for("drawing", lambda: green(shot()) > 1000)
         xdotool("mousemove", 500, 450, "mousedown", 1)
         for _ in range(12):
