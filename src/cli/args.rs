@@ -327,8 +327,8 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) sections: Option<PathBuf>,
 
-    /// What else to write, by extension: .mlp (MeshLab project with its layers),
-    /// .glb (3D scene with one node a beam); may be repeated
+    /// What else to write, by extension: .mlp (MeshLab project with its layers), .glb (3D scene),
+    /// .dxf (axes), .ifc (IFC4 members), .inp (CalculiX beams); may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) export: Vec<PathBuf>,
 

@@ -12,6 +12,7 @@ use super::straighten::breaks;
 use super::{Node, NodeKind, direction};
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::InterfaceSection;
+use crate::mesh::interface_section::nearest_section;
 use crate::skeleton::{Branch, PointKind, Skeleton};
 
 /// One straight piece before its node positions are final.
@@ -87,12 +88,11 @@ impl<'a> Making<'a> {
             PointKind::Branch => NodeKind::Bend,
         };
         let mut anchor = Anchor::at(position, radius);
-        if kind == NodeKind::Interface {
-            let d = |i: &InterfaceSection| (i.centroid - position).norm_squared();
-            if let Some(i) = interfaces.iter().min_by(|a, b| d(a).total_cmp(&d(b))) {
-                anchor.normal = Unit::try_new(i.normal, 0.0);
-                anchor.radius = i.radius();
-            }
+        if kind == NodeKind::Interface
+            && let Some(i) = nearest_section(interfaces, &position)
+        {
+            anchor.normal = Unit::try_new(i.normal, 0.0);
+            anchor.radius = i.radius();
         }
         let node = self.push_node(Node { position, kind }, anchor);
         if kind == NodeKind::Bend {

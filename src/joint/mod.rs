@@ -34,6 +34,7 @@ pub use sphere::Ball;
 use crate::finding::{Finding, FindingKind};
 use crate::frame::{Beam, Frame, NodeId, NodeKind};
 use crate::mesh::InterfaceSection;
+use crate::mesh::interface_section::nearest_section;
 use crate::section::properties::Contours;
 
 /// How beams are joined.
@@ -89,11 +90,10 @@ pub fn joints(
             (JointKind::None, _) => continue,
             (_, NodeKind::Interface) => at_interface(frame, node, at, interfaces),
             (JointKind::Sphere, _) => {
-                let Some((ball, cuts)) = sphere::ball(frame, node, at) else { continue };
+                let Some((ball, cuts)) = sphere::ball(node, at) else { continue };
                 balls.push(ball);
                 cuts
             }
-            (JointKind::Mitre, _) if at.len() > 2 => continue,
             (JointKind::Mitre | JointKind::Trim, _)
                 if at.len() == 2 && at.iter().all(End::ends) =>
             {
@@ -198,9 +198,7 @@ fn at_interface(
     at: &[End],
     interfaces: &[InterfaceSection],
 ) -> Vec<Option<EndCut>> {
-    let place = frame.node(node).position;
-    let squared = |i: &InterfaceSection| (i.centroid - place).norm_squared();
-    let nearest = interfaces.iter().min_by(|a, b| squared(a).total_cmp(&squared(b)));
+    let nearest = nearest_section(interfaces, &frame.node(node).position);
     let normal = nearest.and_then(|i| Unit::try_new(i.normal, 0.0));
     let cut = |end: &End| normal.map(|n| EndCut::in_plane(0.0, n, &end.away));
     at.iter().map(cut).collect()

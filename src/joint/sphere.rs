@@ -1,7 +1,7 @@
 //! A ball at a node: beams end square, with their corners on it.
 
 use super::{End, EndCut};
-use crate::frame::{Frame, NodeId};
+use crate::frame::NodeId;
 
 /// A ball that beams are welded to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,8 +21,8 @@ const LARGEST: f64 = 2.0;
 /// The ball of a node and the cuts of its beams; `None` where fewer than two beams meet.
 ///
 /// Beams of radius r at an angle α are clear of each other beyond r / sin(α/2) from the node.
-pub(super) fn ball(frame: &Frame, node: NodeId, at: &[End]) -> Option<(Ball, Vec<Option<EndCut>>)> {
-    if at.len() < 2 || frame.nodes.len() <= node.index() {
+pub(super) fn ball(node: NodeId, at: &[End]) -> Option<(Ball, Vec<Option<EndCut>>)> {
+    if at.len() < 2 {
         return None;
     }
     let reaches: Vec<f64> = at.iter().map(End::reach).collect();

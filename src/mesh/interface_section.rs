@@ -45,6 +45,15 @@ impl InterfaceSection {
     }
 }
 
+/// The interface section whose centre lies nearest to a place.
+pub(crate) fn nearest_section<'a>(
+    sections: &'a [InterfaceSection],
+    place: &Point3<f64>,
+) -> Option<&'a InterfaceSection> {
+    let squared = |s: &InterfaceSection| (s.centroid - place).norm_squared();
+    sections.iter().min_by(|a, b| squared(a).total_cmp(&squared(b)))
+}
+
 /// Area vector and area centroid of a closed polygon in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopFrame {

@@ -19,8 +19,10 @@ use nalgebra::Point3;
 
 use super::assembly::mark;
 use super::material::Material;
+use super::plain::one_line;
 use crate::frame::{Beam, Frame, NodeKind};
 use crate::mesh::InterfaceSection;
+use crate::mesh::interface_section::nearest_section;
 use crate::section::Shape;
 
 /// Length of an element in section radii; shorter ones make the expanded solids squat.
@@ -119,8 +121,7 @@ fn node_sets(
 ) -> io::Result<()> {
     let mut sets: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (i, node) in frame.nodes.iter().enumerate() {
-        let away = |s: &InterfaceSection| (s.centroid - node.position).norm_squared();
-        let nearest = interfaces.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let nearest = nearest_section(interfaces, &node.position);
         if let (NodeKind::Interface, Some(section)) = (node.kind, nearest) {
             sets.entry(section.set.0).or_default().push(i + 1);
         }
@@ -177,8 +178,4 @@ impl Dimensions {
             }
         }
     }
-}
-
-fn one_line(text: &str) -> String {
-    text.chars().map(|c| if (' '..='~').contains(&c) { c } else { '?' }).collect()
 }

@@ -6,6 +6,7 @@
 
 use std::io::{self, Write};
 
+use super::plain::one_line;
 use crate::frame::Frame;
 
 /// Longest layer name of the format.
@@ -76,10 +77,6 @@ fn layer_name(profile: &str) -> String {
     let allowed = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     let name: String = profile.chars().map(allowed).take(LONGEST_NAME).collect();
     name.to_ascii_uppercase()
-}
-
-fn one_line(text: &str) -> String {
-    text.chars().map(|c| if (' '..='~').contains(&c) { c } else { '?' }).collect()
 }
 
 fn section(

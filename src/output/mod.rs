@@ -16,6 +16,7 @@ pub mod mlp;
 pub mod non_design;
 mod part21;
 pub mod picture;
+mod plain;
 pub mod report;
 pub mod sections;
 pub mod step;
