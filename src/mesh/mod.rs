@@ -13,6 +13,7 @@ pub mod id;
 pub mod indexed;
 pub mod interface_section;
 pub mod label;
+mod order;
 mod orient;
 pub mod prepare;
 pub mod set;

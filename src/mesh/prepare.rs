@@ -9,7 +9,8 @@
 //! | 4 | small and flat openings closed | `close_openings` |
 //! | 5 | fans that touch in a vertex separated | `split_shared_vertices` |
 //! | 6 | shells turned outwards; cavities and islands left out | `choose_shells` |
-//! | 7 | labels cleaned, sets and interface sections found | [`Labels`], [`interface_sections`] |
+//! | 7 | triangles and points numbered by the shape alone | `renumbered` |
+//! | 8 | labels cleaned, sets and interface sections found | [`Labels`], [`interface_sections`] |
 //!
 //! **Cavities** (closed hollows inside the material) are left out: a curve skeleton cannot see
 //! them, and sections are taken as solid. **Floating islands** (bodies without any non-design
@@ -26,6 +27,7 @@ use super::half_edge::HalfEdgeMesh;
 use super::indexed::{IndexedMesh, weld};
 use super::interface_section::{InterfaceSection, interface_sections};
 use super::label::{LabelCounts, LabelParams, extent, non_design_faces};
+use super::order::renumbered;
 use super::orient::{NO_TWIN, Pairing, pair_and_orient};
 use super::set::Labels;
 use super::shell::{Shell, Shells};
@@ -266,7 +268,7 @@ fn keep_faces(soup: &mut IndexedMesh, twins: &mut Vec<u32>, keep: &[bool]) {
     drop_unused_points(soup);
 }
 
-/// Step 7, after islands are dropped.
+/// Steps 7 and 8, after islands are dropped.
 fn label(
     mut soup: IndexedMesh,
     mut twins: Vec<u32>,
@@ -288,7 +290,11 @@ fn label(
     keep_faces(&mut soup, &mut twins, &keep);
     let mut marks = keep.iter();
     non_design.retain(|_| *marks.next().unwrap_or(&true));
-    Ok(finish(HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins), non_design, report))
+    let kept = shells.of_face.iter().zip(&keep).filter(|(_, kept)| **kept);
+    let shell_of_face: Vec<u32> = kept.map(|(s, _)| *s).collect();
+    let mesh = HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins);
+    let (mesh, non_design) = renumbered(&mesh, &shell_of_face, &non_design);
+    Ok(finish(mesh, non_design, report))
 }
 
 /// Which faces belong to bodies that a non-design part holds (all, when there are no labels).

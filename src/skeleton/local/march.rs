@@ -52,9 +52,13 @@ pub(crate) struct Tube {
 }
 
 impl Tube {
-    /// Length along the centroids, mm.
+    /// Length across the fronts, mm: centroids that wander sideways, as those of slant cuts through
+    /// a joint do, come no farther.
     pub(crate) fn length(&self) -> f64 {
-        self.fronts.windows(2).map(|w| (w[1].extent.centroid - w[0].extent.centroid).norm()).sum()
+        self.fronts
+            .windows(2)
+            .map(|w| (w[1].extent.centroid - w[0].extent.centroid).dot(&w[1].plane.normal))
+            .sum()
     }
 
     /// The front in the middle.

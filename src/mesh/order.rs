@@ -1,0 +1,302 @@
+//! A numbering of the surface that depends on its shape alone.
+//!
+//! Files list the triangles of one and the same part in any order. Whatever is decided later by
+//! "the first one found" must depend neither on that nor on how the part lies in space. Each shell
+//! is therefore numbered anew: from its outermost corner on, triangle after triangle over the edges
+//! that lead away from there.
+//!
+//! Where several corners are equally far out, the walks that start there are compared step by step;
+//! two that never differ start at places the part cannot be told apart from.
+
+use std::cmp::Ordering;
+use std::collections::VecDeque;
+
+use nalgebra::{Point3, Vector3};
+use rustc_hash::FxHashSet;
+
+use super::half_edge::HalfEdgeMesh;
+use super::id::{FaceId, HalfEdgeId, VertexId};
+
+/// Lengths that differ by less than this part of the size of the mesh are equal. Turning a part
+/// rounds its coordinates by 1e-16, writing them with seven digits by 1e-7; two corners that differ
+/// by less would be told apart by that rounding.
+const EQUAL: f64 = 1e-6;
+
+/// Walks that agree for so many triangles are taken as equal. Two corners of a frame that look
+/// alike differ within the few hundred triangles of the strut they belong to.
+const MOST_COMPARED: usize = 4096;
+
+/// Most starts whose walks are compared. Boxes have 8 outermost corners of some 6 sides each; where
+/// there are more, as on a ball, coordinates decide.
+const MOST_STARTS: usize = 96;
+
+/// Numbers triangles, their corners and the points anew, given the shell of each triangle; the
+/// `marks` of the triangles move along.
+pub(super) fn renumbered(
+    mesh: &HalfEdgeMesh,
+    shell_of_face: &[u32],
+    marks: &[bool],
+) -> (HalfEdgeMesh, Vec<bool>) {
+    let firsts = walk(mesh, &starts(mesh, shell_of_face));
+    let mut new_half_edge = vec![0u32; 3 * mesh.face_count()];
+    for (new, first) in (0..).step_by(3).zip(&firsts) {
+        for (side, h) in (0..).zip(sides(*first)) {
+            new_half_edge[h.index()] = new + side;
+        }
+    }
+    let mut new_point = vec![u32::MAX; mesh.positions().len()];
+    let mut positions = Vec::with_capacity(mesh.positions().len());
+    let mut triangles = Vec::with_capacity(mesh.face_count());
+    let mut twins = Vec::with_capacity(3 * mesh.face_count());
+    for first in &firsts {
+        triangles.push(sides(*first).map(|h| {
+            let point = &mut new_point[mesh.origin(h).index()];
+            if *point == u32::MAX {
+                *point = positions.len() as u32;
+                positions.push(mesh.position(mesh.origin(h)));
+            }
+            *point
+        }));
+        twins.extend(sides(*first).map(|h| new_half_edge[mesh.twin(h).index()]));
+    }
+    let marks = firsts.iter().map(|h| marks[h.face().index()]).collect();
+    (HalfEdgeMesh::from_parts(positions, triangles, twins), marks)
+}
+
+/// The sides of a triangle from `first` on.
+fn sides(first: HalfEdgeId) -> [HalfEdgeId; 3] {
+    [first, first.next(), first.previous()]
+}
+
+/// The first half-edge of every triangle, in the order in which the triangles are reached.
+fn walk(mesh: &HalfEdgeMesh, starts: &[HalfEdgeId]) -> Vec<HalfEdgeId> {
+    let mut reached = vec![false; mesh.face_count()];
+    let mut firsts = Vec::with_capacity(mesh.face_count());
+    for &start in starts {
+        let is_new = |f: FaceId| !std::mem::replace(&mut reached[f.index()], true);
+        firsts.extend(Walk::new(mesh, start, is_new));
+    }
+    firsts
+}
+
+/// Triangles in the order in which they are reached from a half-edge, each by the half-edge it is
+/// entered over.
+struct Walk<'a, F> {
+    mesh: &'a HalfEdgeMesh,
+    ahead: VecDeque<HalfEdgeId>,
+    is_new: F,
+}
+
+impl<'a, F: FnMut(FaceId) -> bool> Walk<'a, F> {
+    fn new(mesh: &'a HalfEdgeMesh, start: HalfEdgeId, mut is_new: F) -> Self {
+        let ahead = if is_new(start.face()) { VecDeque::from([start]) } else { VecDeque::new() };
+        Self { mesh, ahead, is_new }
+    }
+}
+
+impl<F: FnMut(FaceId) -> bool> Iterator for Walk<'_, F> {
+    type Item = HalfEdgeId;
+
+    fn next(&mut self) -> Option<HalfEdgeId> {
+        let first = self.ahead.pop_front()?;
+        for h in sides(first).map(|h| self.mesh.twin(h)) {
+            if (self.is_new)(h.face()) {
+                self.ahead.push_back(h);
+            }
+        }
+        Some(first)
+    }
+}
+
+/// Where the walk over each shell starts, the shell that reaches farthest out first.
+fn starts(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> Vec<HalfEdgeId> {
+    let ruler = Ruler::of(mesh);
+    let count = shell_of_face.iter().max().map_or(0, |m| *m as usize + 1);
+    let mut reach = vec![f64::NEG_INFINITY; count];
+    let all = || mesh.faces().flat_map(FaceId::half_edges);
+    let shell = |h: HalfEdgeId| shell_of_face[h.face().index()] as usize;
+    for h in all() {
+        let r = &mut reach[shell(h)];
+        *r = r.max(ruler.distance(mesh.origin(h)));
+    }
+    let mut outermost: Vec<Vec<HalfEdgeId>> = vec![Vec::new(); count];
+    for h in all() {
+        if ruler.distance(mesh.origin(h)) >= reach[shell(h)] - ruler.equal {
+            outermost[shell(h)].push(h);
+        }
+    }
+    let mut starts: Vec<HalfEdgeId> =
+        outermost.into_iter().filter_map(|tied| ruler.first_of(tied)).collect();
+    starts.sort_by(|a, b| ruler.compare(*a, *b));
+    starts
+}
+
+/// Measures from the middle of a surface.
+struct Ruler<'a> {
+    mesh: &'a HalfEdgeMesh,
+    centre: Point3<f64>,
+    /// Lengths that differ by less are equal, mm.
+    equal: f64,
+}
+
+impl<'a> Ruler<'a> {
+    fn of(mesh: &'a HalfEdgeMesh) -> Self {
+        let origin = mesh.positions().first().copied().unwrap_or_else(Point3::origin);
+        let (mut area, mut moment) = (0.0, Vector3::zeros());
+        for f in mesh.faces() {
+            let [a, b, c] = mesh.corners(f).map(|p| p - origin);
+            let weight = mesh.face_area(f);
+            area += weight;
+            moment += (a + b + c) * (weight / 3.0);
+        }
+        let centre = if area > 0.0 { origin + moment / area } else { origin };
+        let size = mesh.positions().iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
+        Self { mesh, centre, equal: EQUAL * size }
+    }
+
+    fn distance(&self, v: VertexId) -> f64 {
+        (self.mesh.position(v) - self.centre).norm()
+    }
+
+    /// The half-edge of all whose walk comes first.
+    fn first_of(&self, mut tied: Vec<HalfEdgeId>) -> Option<HalfEdgeId> {
+        if tied.len() > MOST_STARTS {
+            tied.sort_by(|a, b| self.by_coordinates(*a, *b));
+            tied.truncate(MOST_STARTS);
+        }
+        tied.into_iter().min_by(|a, b| self.compare(*a, *b))
+    }
+
+    /// The walk with the larger lengths comes first.
+    fn compare(&self, a: HalfEdgeId, b: HalfEdgeId) -> Ordering {
+        let mut reached = [FxHashSet::default(), FxHashSet::default()];
+        let [of_a, of_b] = &mut reached;
+        let a_steps = Walk::new(self.mesh, a, |f| of_a.insert(f));
+        let b_steps = Walk::new(self.mesh, b, |f| of_b.insert(f));
+        for (i, j) in a_steps.zip(b_steps).take(MOST_COMPARED) {
+            for (at_i, at_j) in self.lengths(i).into_iter().zip(self.lengths(j)) {
+                if (at_i - at_j).abs() > self.equal {
+                    return at_j.total_cmp(&at_i);
+                }
+            }
+        }
+        self.by_coordinates(a, b)
+    }
+
+    /// What is compared of a triangle: how far out it begins, and its next two sides.
+    fn lengths(&self, first: HalfEdgeId) -> [f64; 3] {
+        let [a, b, c] = sides(first).map(|h| self.mesh.position(self.mesh.origin(h)));
+        [(a - self.centre).norm(), (b - a).norm(), (c - b).norm()]
+    }
+
+    fn by_coordinates(&self, a: HalfEdgeId, b: HalfEdgeId) -> Ordering {
+        let key = |h: HalfEdgeId| {
+            let [p, q] = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.mesh.position(v));
+            [p.x, p.y, p.z, q.x, q.y, q.z]
+        };
+        let (a, b) = (key(a), key(b));
+        let differing = a.iter().zip(&b).find(|(x, y)| (*x - *y).abs() > self.equal);
+        differing.map_or(Ordering::Equal, |(x, y)| x.total_cmp(y))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A box with one corner pulled out, so that no two corners are alike.
+    fn lopsided_box() -> (Vec<Point3<f64>>, Vec<[u32; 3]>) {
+        let positions = (0..8u32)
+            .map(|i| {
+                let at = |bit: u32| f64::from(i >> bit & 1);
+                let pull = if i == 5 { 0.5 } else { 0.0 };
+                Point3::new(3.0 * at(0) + pull, 2.0 * at(1), at(2))
+            })
+            .collect();
+        (positions, TWELVE.to_vec())
+    }
+
+    const TWELVE: [[u32; 3]; 12] = [
+        [0, 2, 3],
+        [0, 3, 1],
+        [4, 5, 7],
+        [4, 7, 6],
+        [0, 1, 5],
+        [0, 5, 4],
+        [2, 6, 7],
+        [2, 7, 3],
+        [0, 4, 6],
+        [0, 6, 2],
+        [1, 3, 7],
+        [1, 7, 5],
+    ];
+
+    fn mesh(positions: Vec<Point3<f64>>, triangles: Vec<[u32; 3]>) -> HalfEdgeMesh {
+        let side = |h: usize| (triangles[h / 3][h % 3], triangles[h / 3][(h + 1) % 3]);
+        let twins = (0..3 * triangles.len())
+            .map(|h| {
+                let (a, b) = side(h);
+                (0..3 * triangles.len()).find(|&t| side(t) == (b, a)).expect("a twin") as u32
+            })
+            .collect();
+        HalfEdgeMesh::from_parts(positions, triangles, twins)
+    }
+
+    fn numbered(mesh: &HalfEdgeMesh) -> HalfEdgeMesh {
+        let faces = mesh.face_count();
+        let (mesh, _) = renumbered(mesh, &vec![0; faces], &vec![false; faces]);
+        assert_eq!(mesh.check(), Ok(()));
+        mesh
+    }
+
+    /// Triangles, their corners and the points in another order.
+    fn shuffled(positions: &[Point3<f64>], triangles: &[[u32; 3]]) -> HalfEdgeMesh {
+        let points = positions.len() as u32;
+        let of_point = |v: u32| (5 * v + 3) % points;
+        let mut moved = vec![Point3::origin(); positions.len()];
+        for (v, p) in (0..).zip(positions) {
+            moved[of_point(v) as usize] = *p;
+        }
+        let turned = |(i, t): (usize, &[u32; 3])| {
+            let mut t = t.map(of_point);
+            t.rotate_left(i % 3);
+            t
+        };
+        mesh(moved, triangles.iter().rev().enumerate().map(turned).collect())
+    }
+
+    #[test]
+    fn a_shuffled_surface_is_numbered_like_the_surface() {
+        let (positions, triangles) = lopsided_box();
+        let plain = numbered(&mesh(positions.clone(), triangles.clone()));
+        let other = numbered(&shuffled(&positions, &triangles));
+        assert_eq!(plain.positions(), other.positions());
+        assert_eq!(plain.triangles(), other.triangles());
+    }
+
+    #[test]
+    fn a_turned_surface_is_numbered_like_the_surface() {
+        let (positions, triangles) = lopsided_box();
+        let plain = numbered(&mesh(positions.clone(), triangles.clone()));
+        let turn =
+            nalgebra::Isometry3::new(Vector3::new(7.0, -2.0, 1.0), Vector3::new(0.3, 1.0, 2.0));
+        let turned = positions.iter().map(|p| turn * p).collect();
+        let other = numbered(&mesh(turned, triangles));
+        assert_eq!(plain.triangles(), other.triangles());
+        for (p, q) in plain.positions().iter().zip(other.positions()) {
+            assert!((turn * p - q).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn marks_stay_with_their_triangles() {
+        let (positions, triangles) = lopsided_box();
+        let mesh = mesh(positions, triangles);
+        // The two triangles of the upper face.
+        let marks: Vec<bool> = (0..12).map(|f| f == 2 || f == 3).collect();
+        let (mesh, marks) = renumbered(&mesh, &[0; 12], &marks);
+        for (f, marked) in mesh.faces().zip(marks) {
+            assert_eq!(marked, mesh.corners(f).iter().all(|p| p.z == 1.0));
+        }
+    }
+}
