@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use beamwright::output::cut_list::CutList;
 use beamwright::output::files::WriteError;
 use beamwright::output::picture::{self, PictureFormat};
 use beamwright::output::report::{self, Measures, Peer, Report};
@@ -51,6 +52,7 @@ impl Looks {
         outcome: &Outcome,
         summary: &Summary,
         document: &step::Document,
+        cut_list: &CutList,
     ) -> Result<(), Failure> {
         let view = view(outcome, document);
         for (path, format) in &self.pictures {
@@ -62,13 +64,7 @@ impl Looks {
         let measures = Measures::new(&outcome.surface, &outcome.skeleton, self.peers)
             .map_err(Failure::input)?;
         let name = show::name_of(&args.input.input);
-        let report = Report {
-            name: &name,
-            summary,
-            view: &view,
-            measures: &measures,
-            density: args.output.density,
-        };
+        let report = Report { name: &name, summary, view: &view, measures: &measures, cut_list };
         files.add(path, |out| report::write(&report, out)).map_err(Failure::input)
     }
 }

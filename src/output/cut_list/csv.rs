@@ -87,12 +87,13 @@ fn totals(list: &CutList, table: &mut Table<'_>) -> io::Result<()> {
         row[15] = format!("{:.6}", t.surface_m2);
         table.row(row)?;
     }
+    let all = list.total();
     let mut row = vec![String::new(); COLUMNS];
-    row[0] = "all".into();
-    row[2] = list.totals.iter().map(|t| t.quantity).sum::<usize>().to_string();
-    row[7] = format!("{:.3}", list.totals.iter().map(|t| t.length_mm).sum::<f64>());
-    row[14] = format!("{:.6}", list.mass());
-    row[15] = format!("{:.6}", list.totals.iter().map(|t| t.surface_m2).sum::<f64>());
+    row[0] = all.profile;
+    row[2] = all.quantity.to_string();
+    row[7] = format!("{:.3}", all.length_mm);
+    row[14] = format!("{:.6}", all.mass_kg);
+    row[15] = format!("{:.6}", all.surface_m2);
     table.row(row)
 }
 

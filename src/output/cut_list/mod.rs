@@ -89,6 +89,19 @@ impl CutList {
         self.totals.iter().map(|t| t.mass_kg).sum()
     }
 
+    /// Sums over all profiles.
+    pub fn total(&self) -> ProfileTotal {
+        let sum = |of: fn(&ProfileTotal) -> f64| self.totals.iter().map(of).sum();
+        ProfileTotal {
+            profile: "all".into(),
+            standard: String::new(),
+            quantity: self.totals.iter().map(|t| t.quantity).sum(),
+            length_mm: sum(|t| t.length_mm),
+            mass_kg: sum(|t| t.mass_kg),
+            surface_m2: sum(|t| t.surface_m2),
+        }
+    }
+
     /// Writes the list as CSV: pieces, totals, bars and a legend, with empty lines between.
     ///
     /// # Errors

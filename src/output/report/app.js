@@ -197,14 +197,14 @@
       return balls;
     }
 
-    /** Gives each beam its colour; the chosen one stands out, the others pale. */
+    /** Gives each beam its colour; the chosen ones stand out, the others pale. */
     paint(colours, chosen) {
       const { geometry } = this.layers.beams;
       const colour = geometry.getAttribute("color");
       const corners = geometry.getIndex().array;
       const { starts } = scene.beamMesh;
       colours.forEach((own, beam) => {
-        const shown = beam === chosen ? new Vendor.Color(CHOSEN) : own.clone().lerp(new Vendor.Color(REST), chosen < 0 ? 0 : 0.6);
+        const shown = chosen.includes(beam) ? new Vendor.Color(CHOSEN) : own.clone().lerp(new Vendor.Color(REST), chosen.length > 0 ? 0.6 : 0);
         for (let i = 3 * starts[beam]; i < 3 * starts[beam + 1]; i++) colour.setXYZ(corners[i], shown.r, shown.g, shown.b);
       });
       colour.needsUpdate = true;
@@ -266,22 +266,22 @@
       this.flyTo(place, 0.45 * this.size);
     }
 
-    /** The beam under a place on the screen; −1 for none. */
-    beamAt(x, y) {
-      if (!this.layers.beams.visible) return -1;
+    /** The beam under a place on the screen, in a list; an empty one for none. */
+    beamsAt(x, y) {
+      if (!this.layers.beams.visible) return [];
       const frame = this.host.getBoundingClientRect();
       const at = new Vendor.Vector2(((x - frame.left) / frame.width) * 2 - 1, 1 - ((y - frame.top) / frame.height) * 2);
       const ray = new Vendor.Raycaster();
       ray.setFromCamera(at, this.camera);
       const [hit] = ray.intersectObject(this.layers.beams, false);
-      return hit ? scene.beamMesh.starts.findIndex((start) => start > hit.faceIndex) - 1 : -1;
+      return hit ? [scene.beamMesh.starts.findIndex((start) => start > hit.faceIndex) - 1] : [];
     }
 
     listen() {
       let down = null;
       this.host.addEventListener("pointerdown", (e) => (down = [e.clientX, e.clientY]));
       this.host.addEventListener("pointerup", (e) => {
-        if (down && Math.hypot(e.clientX - down[0], e.clientY - down[1]) < 5) choose(this.beamAt(e.clientX, e.clientY), false);
+        if (down && Math.hypot(e.clientX - down[0], e.clientY - down[1]) < 5) choose(this.beamsAt(e.clientX, e.clientY), false);
         down = null;
       });
       this.host.addEventListener("keydown", (e) => this.key(e));
@@ -293,7 +293,7 @@
       if (turn) this.turn(...turn);
       else if (zoom) this.turn(0, 0, zoom);
       else if (event.key === "f" || event.key === "F") this.look("fit");
-      else if (event.key === "Escape") choose(-1, false);
+      else if (event.key === "Escape") choose([], false);
       else return;
       event.preventDefault();
     }
@@ -315,7 +315,7 @@
 
     resize() {
       const { clientWidth: width, clientHeight: height } = this.host;
-      if (!width || !height) return;
+      if (!width || !height || matchMedia("print").matches) return;
       this.renderer.setSize(width, height);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
@@ -350,35 +350,59 @@
   // ---- selection -------------------------------------------------------------------------------
 
   const rows = [...document.querySelectorAll("tr[data-beam]")];
-  let chosen = -1;
+  let chosen = [];
   let colours = colouring("profile");
 
-  function choose(beam, fly) {
-    chosen = beam;
-    for (const row of rows) row.setAttribute("aria-selected", String(Number(row.dataset.beam) === beam));
-    const b = scene.beams[beam];
-    $("label").hidden = !b;
-    viewer?.paint(colours.beams, beam);
-    if (!b) return;
-    $("label").textContent = `${b.mark} ${b.profile}`;
-    if (b.branches.length > 0) showBranch(b.branches[0]);
-    if (fly) {
-      const [a, z] = b.ends;
-      viewer?.flyTo(a.map((x, i) => (x + z[i]) / 2), Math.max(2.2 * Math.hypot(...a.map((x, i) => x - z[i])), 0.5 * viewer.size));
-    } else {
-      rows.find((row) => Number(row.dataset.beam) === beam)?.scrollIntoView({ block: "nearest" });
+  /** Beams of each piece of the cut list, and all that shows it: its row and its places on bars. */
+  const pieces = new Map();
+  const beamOf = new Map(scene.beams.map((b, i) => [b.mark, i]));
+  for (const row of document.querySelectorAll("tr[data-piece]")) {
+    const beams = row.querySelector(".marks").textContent.split(" ").map((mark) => beamOf.get(mark));
+    pieces.set(row.dataset.piece, { beams, shown: [row] });
+  }
+  for (const place of document.querySelectorAll(".piece")) pieces.get(place.dataset.piece).shown.push(place);
+
+  const select = (element, is) => element.setAttribute("aria-selected", String(is));
+
+  /** Chooses beams everywhere: in the view, the tables and the nesting diagram. */
+  function choose(beams, fly) {
+    chosen = beams;
+    for (const row of rows) select(row, beams.includes(Number(row.dataset.beam)));
+    for (const { beams: own, shown } of pieces.values()) {
+      const is = beams.some((beam) => own.includes(beam));
+      for (const element of shown) select(element, is);
     }
+    viewer?.paint(colours.beams, beams);
+    const all = beams.map((beam) => scene.beams[beam]);
+    $("label").hidden = all.length === 0;
+    if (all.length === 0) return;
+    const marks = all.slice(0, 4).map((b) => b.mark).join(" ") + (all.length > 4 ? ` and ${all.length - 4} more` : "");
+    $("label").textContent = `${marks} ${all[0].profile}`;
+    if (all[0].branches.length > 0) showBranch(all[0].branches[0]);
+    if (fly) flyToBeams(all);
+    else rows.find((row) => Number(row.dataset.beam) === beams[0])?.scrollIntoView({ block: "nearest" });
   }
 
-  for (const row of rows) {
-    row.addEventListener("click", () => choose(Number(row.dataset.beam), true));
-    row.addEventListener("keydown", (e) => {
+  function flyToBeams(all) {
+    if (!viewer) return;
+    if (all.length > 1) return viewer.look("fit");
+    const [a, z] = all[0].ends;
+    viewer.flyTo(a.map((x, i) => (x + z[i]) / 2), Math.max(2.2 * Math.hypot(...a.map((x, i) => x - z[i])), 0.5 * viewer.size));
+  }
+
+  /** Lets a click, and Enter or space where it has the focus, choose the beams an element stands for. */
+  function chooses(element, beams) {
+    element.addEventListener("click", () => choose(beams, true));
+    element.addEventListener("keydown", (e) => {
       if (e.key === "Enter" || e.key === " ") {
         e.preventDefault();
-        choose(Number(row.dataset.beam), true);
+        choose(beams, true);
       }
     });
   }
+
+  for (const row of rows) chooses(row, [Number(row.dataset.beam)]);
+  for (const { beams, shown } of pieces.values()) for (const element of shown) chooses(element, beams);
 
   // ---- table of beams --------------------------------------------------------------------------
 
@@ -437,7 +461,7 @@
   function plot(id, options, data) {
     plots[id]?.destroy();
     const host = $(id);
-    const axis = { stroke: style("--soft"), grid: { stroke: style("--line"), width: 1 }, ticks: { stroke: style("--line"), width: 1 } };
+    const axis = { values: (u, ticks) => ticks.map(figure), stroke: style("--soft"), grid: { stroke: style("--line"), width: 1 }, ticks: { stroke: style("--line"), width: 1 } };
     const axes = options.axes.map((own) => ({ ...axis, ...own }));
     plots[id] = new Vendor.uPlot({ width: Math.max(host.clientWidth, 240), height: 230, scales: { x: { time: false } }, ...options, axes }, data, host);
   }

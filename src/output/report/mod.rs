@@ -3,6 +3,7 @@
 //! | part | what | file |
 //! |---|---|---|
 //! | page | the words and tables, readable without a script | `templates/report.html`, `tables` |
+//! | nesting | the pieces of the cut list on their stock bars | `nesting` |
 //! | scene | geometry and figures of the 3D view as JSON | `scene`, `packed` |
 //! | script | 3D view, sorting, searching, plots | `app.js`, `vendor/` |
 //!
@@ -12,6 +13,7 @@
 //! other script runs and nothing is fetched, whatever a name says.
 
 mod measure;
+mod nesting;
 mod packed;
 mod scene;
 mod tables;
@@ -23,6 +25,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
 
+use super::cut_list::CutList;
 use super::picture::svg_of_beams;
 use super::summary::Summary;
 use super::view::View;
@@ -43,8 +46,8 @@ pub struct Report<'a> {
     pub view: &'a View<'a>,
     /// How well the skeletons are centred.
     pub measures: &'a Measures,
-    /// Density for the masses, kg/m³.
-    pub density: f64,
+    /// What is sawn of the beams.
+    pub cut_list: &'a CutList,
 }
 
 #[derive(Template)]
@@ -59,6 +62,7 @@ struct Page<'a> {
     app: &'static str,
     summary: &'a Summary,
     tables: Tables,
+    cut_list: &'a CutList,
     picture: String,
     data: String,
     /// Triangles shown and triangles there are, when that is less.
@@ -81,6 +85,7 @@ pub fn write(report: &Report<'_>, out: &mut dyn Write) -> io::Result<()> {
         app: APP,
         summary: report.summary,
         tables: Tables::new(report),
+        cut_list: report.cut_list,
         picture: svg_of_beams(report.view),
         data: script_safe(&serde_json::to_string(&scene)?),
         thinned: scene.thinned(),

@@ -1,11 +1,15 @@
 //! The tables of the page, as texts ready to print.
 
+use rustc_hash::FxHashMap;
+
 use crate::evaluate::Evaluation;
 use crate::output::beam_table::{self, BeamRow};
+use crate::output::cut_list::{CutList, Piece};
 use crate::output::view::View;
 
 use super::Report;
 use super::measure::{Along, along};
+use super::nesting::Diagram;
 
 /// All tables.
 pub(super) struct Tables {
@@ -14,7 +18,7 @@ pub(super) struct Tables {
     pub(super) total_mass: String,
     pub(super) skeletons: Vec<String>,
     pub(super) centeredness: Vec<(&'static str, Vec<String>)>,
-    pub(super) cut_list: Vec<CutLine>,
+    pub(super) nesting: Option<Diagram>,
 }
 
 /// One beam.
@@ -29,25 +33,18 @@ pub(super) struct BeamLine {
     pub(super) error: String,
 }
 
-/// Equal pieces to cut.
-pub(super) struct CutLine {
-    pub(super) profile: String,
-    pub(super) length: String,
-    pub(super) marks: Vec<String>,
-    pub(super) mass: String,
-}
-
 impl Tables {
     pub(super) fn new(report: &Report<'_>) -> Self {
         let View { frame, skeleton, .. } = report.view;
         let rows = beam_table::rows(frame);
         let along = along(frame, skeleton, &report.measures.offsets);
-        let masses: Vec<f64> = rows.iter().map(|r| mass(r, report.density)).collect();
-        let beams = rows.iter().zip(&along).zip(&masses);
+        let masses = masses(report.cut_list);
+        let mass = |row: &BeamRow| masses.get(row.mark.as_str()).copied().unwrap_or_default();
+        let beams = rows.iter().zip(&along);
         Self {
-            beams: beams.map(|((row, along), mass)| BeamLine::new(row, along, *mass)).collect(),
+            beams: beams.map(|(row, along)| BeamLine::new(row, along, mass(row))).collect(),
             total_length: format!("{:.1}", rows.iter().map(|r| r.cut_length).sum::<f64>()),
-            total_mass: kilograms(masses.iter().sum()),
+            total_mass: kilograms(report.cut_list.mass()),
             skeletons: report.measures.evaluated.iter().map(|e| e.name.clone()).collect(),
             centeredness: FIGURES
                 .iter()
@@ -56,7 +53,7 @@ impl Tables {
                     (*label, cells.collect())
                 })
                 .collect(),
-            cut_list: cut_list(&rows, &masses),
+            nesting: report.cut_list.nesting.as_ref().map(Diagram::new),
         }
     }
 }
@@ -82,8 +79,10 @@ pub(super) fn worst_error(row: &BeamRow) -> Option<f64> {
     Some([e.area, e.i_1, e.i_2].into_iter().fold(0.0, |worst, x| worst.max(x.abs())))
 }
 
-fn mass(row: &BeamRow, density: f64) -> f64 {
-    row.area * row.cut_length * density * 1e-9
+/// Mass of each beam by its mark, kg.
+fn masses<'a>(list: &'a CutList) -> FxHashMap<&'a str, f64> {
+    let of_piece = |p: &'a Piece| p.marks.iter().map(|m| (m.as_str(), p.unit_mass_kg));
+    list.pieces.iter().flat_map(of_piece).collect()
 }
 
 fn kilograms(mass: f64) -> String {
@@ -92,23 +91,6 @@ fn kilograms(mass: f64) -> String {
 
 fn dash() -> String {
     "–".into()
-}
-
-/// Equal pieces together, in the order of their first beam.
-fn cut_list(rows: &[BeamRow], masses: &[f64]) -> Vec<CutLine> {
-    let mut lines: Vec<(CutLine, f64)> = Vec::new();
-    for (row, mass) in rows.iter().zip(masses) {
-        let length = format!("{:.1}", row.cut_length);
-        let same = lines.iter_mut().find(|(l, _)| l.profile == row.profile && l.length == length);
-        if let Some((line, total)) = same {
-            line.marks.push(row.mark.clone());
-            *total += mass;
-        } else {
-            let (profile, marks) = (row.profile.clone(), vec![row.mark.clone()]);
-            lines.push((CutLine { profile, length, marks, mass: String::new() }, *mass));
-        }
-    }
-    lines.into_iter().map(|(line, total)| CutLine { mass: kilograms(total), ..line }).collect()
 }
 
 /// One line of the table of centeredness.
