@@ -1,12 +1,10 @@
-//! Reports, 3D scenes and pictures, written by the program itself; hostile names in all it writes.
+//! Reports, 3D scenes and pictures, written by the program itself.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 type Result<T = ()> = std::result::Result<T, Box<dyn Error>>;
-
-const HOSTILE: &str = "<img src=x onerror=alert(1)>";
 
 /// A folder with one run's results.
 struct Run {
@@ -80,63 +78,6 @@ fn without_scripts(page: &str) -> String {
     let mut parts = page.split("<script");
     let head = parts.next().unwrap_or_default().to_owned();
     parts.fold(head, |all, part| all + part.split_once("</script>").map_or("", |(_, rest)| rest))
-}
-
-/// The mesh of a sample with hostile names of groups, in a file with a hostile name; `non_design`
-/// in the name keeps its meaning.
-fn hostile_mesh(folder: &Path) -> Result<PathBuf> {
-    let text = std::fs::read_to_string(sample("single_bar.obj"))?;
-    let named: String = text
-        .lines()
-        .map(|line| match line.split_once(' ') {
-            Some(("g" | "o", name)) => format!("g {HOSTILE}</script>{name}\n"),
-            _ => format!("{line}\n"),
-        })
-        .collect();
-    assert!(named.contains(HOSTILE), "the sample has no groups");
-    let path = folder.join(format!("{HOSTILE}.obj"));
-    std::fs::write(&path, named)?;
-    Ok(path)
-}
-
-/// A table of profiles whose names would do harm in a page and in a spreadsheet.
-fn hostile_profiles(folder: &Path) -> Result<PathBuf> {
-    let path = folder.join("profiles.csv");
-    let name = format!("=HYPERLINK(1){HOSTILE}");
-    std::fs::write(&path, format!("name,family,shape,d\n{name},mine,round,10\n"))?;
-    Ok(path)
-}
-
-#[test]
-#[cfg(unix)]
-fn hostile_names_do_no_harm_in_any_file() -> Result {
-    let folder = tempfile::tempdir()?;
-    let mesh = hostile_mesh(folder.path())?;
-    let profiles = hostile_profiles(folder.path())?;
-    let profiles = profiles.to_str().ok_or("no UTF-8")?;
-    let mut arguments = EVERYTHING.to_vec();
-    arguments.extend(["--catalogue", profiles, "--profile", "catalogue:mine"]);
-    let run = Run::new(&mesh, &arguments)?.expect_success();
-
-    let page = run.text("out.html")?;
-    assert!(!page.contains("<img"), "a tag in the page");
-    assert!(page.contains("&#60;img src=x onerror=alert(1)&#62;"), "the name as text");
-    assert_eq!(page.matches("</script>").count(), 3);
-    assert!(!run.text("out.svg")?.contains("<img"));
-
-    let cut_list = run.text("out.csv")?;
-    let cells = csv::Reader::from_reader(cut_list.as_bytes()).into_records();
-    for cell in cells.collect::<std::result::Result<Vec<_>, _>>()?.iter().flatten() {
-        assert!(!cell.starts_with(['=', '+', '-', '@']), "a formula: {cell}");
-    }
-
-    let step = run.text("out.step")?;
-    assert!(step.ends_with("END-ISO-10303-21;\n"));
-    assert!(step.contains("=HYPERLINK(1)"), "the name as text");
-
-    let nodes = nodes(&run)?;
-    assert!(nodes.iter().any(|n| n["name"].as_str().is_some_and(|name| name.contains(HOSTILE))));
-    Ok(())
 }
 
 /// The nodes of the 3D scene of a run.

@@ -46,7 +46,7 @@ pub fn write(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let model = Model::of(frame);
-    writeln!(out, "*HEADING\n{}: beams, mm N MPa t", one_line(name))?;
+    writeln!(out, "*HEADING\nbeams of {}, mm N MPa t", one_line(name))?;
     writeln!(out, "*NODE, NSET=ALL")?;
     for (i, p) in model.nodes.iter().enumerate() {
         writeln!(out, "{}, {:.9e}, {:.9e}, {:.9e}", i + 1, p.x, p.y, p.z)?;

@@ -194,6 +194,36 @@ def a_fused_solid_is_sound_or_is_not_there() -> None:
     equal(max(volumes) < fused.Shape.Volume <= sum(volumes) * 1.01, True, "volume of the union")
 
 
+def hostile_names_stay_text() -> None:
+    """Labels, profiles and cells that would be a script or a formula, through saving and back."""
+    doc = document("single_bar.obj")
+    for obj in meshes(doc):
+        kept = "non_design " if obj.Label.startswith("non_design") else ""
+        obj.Label = f"{kept}{HOSTILE}"
+    profiles = ARTEFACTS / "hostile.csv"
+    head = "# family: +mine\n# standard: -2+3\nname,shape,d\n"
+    profiles.write_text(f"{head}=1+1{HOSTILE},round,10\n")
+    extra = ("--catalogue", str(profiles), "--material=@SUM(A1)")
+    options = Options("catalogue:+mine", extra=extra)
+    reconstruct(doc, Source(meshes(doc)), options=options)
+    path = str(ARTEFACTS / "hostile.FCStd")
+    doc.saveAs(path)
+    App.closeDocument(doc.Name)
+    again = App.openDocument(path)
+    group = next(o for o in again.Objects if "BeamwrightSource" in o.PropertiesList)
+    check_group(group)
+    equal(group.Label, f"Beamwright {HOSTILE}", "label of the group")
+    (beam,) = solids(group)
+    equal(beam.Label, f"B001 =1+1{HOSTILE}", "label of the beam")
+    sheet = sheet_of(group)
+    cells = [sheet.get(f"{c}2") for c in "ABEL"]
+    equal(cells, [HOSTILE, beam.Label, "@SUM(A1)", "-2+3"], "cells of the cut list")
+
+
+#: Part of every name: an element of a page, the end of a string and of a section in a STEP file.
+HOSTILE = "<img src=x onerror=alert(1)>');ENDSEC;"
+
+
 # -- where non-design comes from -------------------------------------------------------------------
 
 
@@ -475,6 +505,7 @@ main(
     a_second_run_replaces_the_first,
     the_skeleton_is_coloured_by_how_well_it_is_centred,
     a_fused_solid_is_sound_or_is_not_there,
+    hostile_names_stay_text,
     every_way_to_say_non_design_finds_the_same_sets,
     a_fem_mesh_is_taken_by_its_surface,
     a_refusal_leaves_the_document_alone,

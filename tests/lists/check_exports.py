@@ -81,6 +81,27 @@ def solve(model: Path, force: float) -> float:
     return max(math.hypot(*move) for move in moves)
 
 
+#: An element of a page, the end of a string and of a section in an IFC file, and a formula.
+HOSTILE = "=1+1<img src=x onerror=alert(1)>');ENDSEC;"
+
+
+def hostile(program: Path, samples: Path, folder: Path) -> None:
+    """Names that would do harm come through to each program as text."""
+    mesh = folder / f"*STEP {HOSTILE}.obj"
+    mesh.write_text((samples / "single_bar.obj").read_text())
+    profiles = folder / "profiles.csv"
+    profiles.write_text(f"# family: mine\nname,shape,d\n{HOSTILE},round,8\n")
+    options = ["--catalogue", str(profiles), "--profile", "catalogue:mine", "--material", HOSTILE]
+    check(export(program, mesh, folder, *options) == 1, "hostile names: one beam")
+    check_dxf(mesh.with_suffix(".dxf"), 1)
+    check_ifc(mesh.with_suffix(".ifc"), 1)
+    model = ifcopenshell.open(mesh.with_suffix(".ifc"))
+    materials = [m.Name for m in model.by_type("IfcMaterial")]
+    check(materials == [HOSTILE], f"hostile names: the material is {materials}")
+    plain = mesh.with_suffix(".inp").rename(folder / "hostile.inp")
+    check(0 < solve(plain, 100) < 1, "hostile names: solved")
+
+
 def main() -> None:
     program, samples = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     with tempfile.TemporaryDirectory() as name:
@@ -101,6 +122,7 @@ def main() -> None:
         check(abs(found / exact - 1) < 0.03, f"bar bends by {found:.4f} mm, beam theory {exact:.4f}")
         found = solve(folder / "cantilever.inp", 1)
         check(0 < found < 1, f"cantilever gives way by {found:.2e} mm under 1 N")
+        hostile(program, samples, folder)
 
 
 if __name__ == "__main__":
