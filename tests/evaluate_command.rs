@@ -168,6 +168,11 @@ fn strict_refuses_a_skeleton_that_leaves_the_part() {
     let strict = run(folder.path(), &["evaluate", "bar.obj", "outside.obj", "--strict"]);
     assert_eq!(strict.code, Some(3), "{strict:?}");
     assert!(strict.stdout.contains("points outside"), "the table is printed all the same");
+    assert_eq!(
+        strict.stderr,
+        "error: a promise is broken: outside.obj has 5 point(s) outside; mend it, or leave out \
+         --strict to have it measured as it is\n"
+    );
 }
 
 #[test]
@@ -181,6 +186,10 @@ fn strict_refuses_a_loop_in_a_bar_and_a_bar_in_two_pieces() {
         let strict = run(folder.path(), &["evaluate", "bar.obj", name, "--strict"]);
         assert_eq!(strict.code, Some(3), "{name}: {strict:?}");
     }
+    let both = run(folder.path(), &["evaluate", "bar.obj", "ring.obj", "pieces.obj", "--strict"]);
+    assert_eq!(both.stderr.lines().count(), 1, "{both:?}");
+    let said = "ring.obj has 1 cycle(s) instead of 0 (and 1 more of 2 skeletons);";
+    assert!(both.stderr.contains(said), "{both:?}");
     assert_eq!(run(folder.path(), &["evaluate", "bar.obj", "ring.obj"]).code, Some(0));
 }
 

@@ -98,9 +98,12 @@ pub(crate) fn run(
     }
     let comparisons = comparisons(&evaluated, &skeletons, args.measure.resample)?;
     progress.finish();
-    let sound = evaluated.iter().all(|e| keeps_its_promises(&e.evaluation));
-    print(&Report::new(evaluated, comparisons), &args.result)?;
-    Ok(if args.result.strict && !sound { Exit::Breach } else { Exit::Done })
+    let report = Report::new(evaluated, comparisons);
+    print(&report, &args.result)?;
+    match breach(&report.skeletons).filter(|_| args.result.strict) {
+        Some(message) => Err(Failure { exit: Exit::Breach, message }),
+        None => Ok(Exit::Done),
+    }
 }
 
 /// Measures one skeleton, made comparable before if asked for.
@@ -146,9 +149,42 @@ fn comparisons(
         .collect()
 }
 
-/// Inside everywhere, with the components and cycles of the part.
-fn keeps_its_promises(e: &Evaluation) -> bool {
-    e.raw.points_outside == 0 && e.outside.segments_through_surface == 0 && e.topology.is_homotopic
+/// What breaks a promise, if anything: how many skeletons, and the first with what is wrong in it.
+fn breach(evaluated: &[Evaluated]) -> Option<String> {
+    let mut broken = evaluated
+        .iter()
+        .map(|e| (&e.name, faults(&e.evaluation).join(", ")))
+        .filter(|(_, faults)| !faults.is_empty());
+    let (name, faults) = broken.next()?;
+    let more = match broken.count() {
+        0 => String::new(),
+        count => format!(" (and {count} more of {} skeletons)", evaluated.len()),
+    };
+    Some(format!(
+        "a promise is broken: {name} has {faults}{more}; mend it, or leave out --strict to have it \
+         measured as it is"
+    ))
+}
+
+/// What keeps a skeleton from lying inside everywhere with the components and cycles of the part.
+fn faults(e: &Evaluation) -> Vec<String> {
+    let (outside, through) = (e.raw.points_outside, e.outside.segments_through_surface);
+    let t = &e.topology;
+    [
+        (outside > 0, format!("{outside} point(s) outside")),
+        (through > 0, format!("{through} segment(s) through the surface")),
+        (
+            t.components != t.expected_components,
+            format!("{} component(s) instead of {}", t.components, t.expected_components),
+        ),
+        (
+            t.cycle_rank != t.expected_cycle_rank,
+            format!("{} cycle(s) instead of {}", t.cycle_rank, t.expected_cycle_rank),
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(wrong, text)| wrong.then_some(text))
+    .collect()
 }
 
 fn print(report: &Report, args: &ResultArgs) -> Result<(), Failure> {
