@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Write};
 use serde::Serialize;
 
 use super::beam_table::{self, BeamRow};
+use super::plain::counted;
 use crate::finding::Finding;
 use crate::frame::{self, BeamVolumes, Frame};
 use crate::mesh::{InterfaceKind, InterfaceSection, Label, MeshReport, Surface};
@@ -326,19 +327,20 @@ impl Display for Summary {
     }
 }
 
-fn mesh_line(mesh: &MeshSummary) -> String {
+/// One line on the mesh, in words.
+pub(super) fn mesh_line(mesh: &MeshSummary) -> String {
     format!(
-        "{} triangles, {} bod{}, genus {}, {:.1} mm across, {:.0} mm³",
+        "{} triangles, {}, genus {}, {:.1} mm across, {:.0} mm³",
         grouped(mesh.triangles),
-        mesh.bodies,
-        if mesh.bodies == 1 { "y" } else { "ies" },
+        counted(mesh.bodies, "body", "bodies"),
         mesh.genus,
         mesh.diagonal,
         mesh.volume
     )
 }
 
-fn label_line(labels: &LabelSummary) -> String {
+/// One line on the labels, in words.
+pub(super) fn label_line(labels: &LabelSummary) -> String {
     let Some(source) = labels.source else {
         return "none: the whole mesh is design".to_owned();
     };
@@ -370,10 +372,16 @@ fn interface_line(section: &InterfaceSummary) -> String {
     )
 }
 
-fn skeleton_line(s: &SkeletonSummary) -> String {
+/// One line on the skeleton, in words.
+pub(super) fn skeleton_line(s: &SkeletonSummary) -> String {
     let mut line = format!(
-        "{} branches, {} junctions, {} points, {:.1} mm; cycles {} of {}",
-        s.branches, s.junctions, s.points, s.length, s.cycles, s.expected_cycles
+        "{}, {}, {} points, {:.1} mm; cycles {} of {}",
+        counted(s.branches, "branch", "branches"),
+        counted(s.junctions, "junction", "junctions"),
+        s.points,
+        s.length,
+        s.cycles,
+        s.expected_cycles
     );
     if s.free_ends > 0 {
         let _ = write!(line, "; {} free end(s)", s.free_ends);
@@ -381,11 +389,14 @@ fn skeleton_line(s: &SkeletonSummary) -> String {
     line
 }
 
-fn frame_line(frame: &FrameSummary) -> String {
-    format!("{} beams, {} nodes, {:.1} mm", frame.beams, frame.nodes, frame.length)
+/// One line on the frame, in words.
+pub(super) fn frame_line(frame: &FrameSummary) -> String {
+    let beams = counted(frame.beams, "beam", "beams");
+    format!("{beams}, {} nodes, {:.1} mm", frame.nodes, frame.length)
 }
 
-fn volume_line(frame: &FrameSummary) -> String {
+/// One line on the volume of the beams, in words.
+pub(super) fn volume_line(frame: &FrameSummary) -> String {
     let part = |volume: f64| 100.0 * volume / frame.design_volume;
     format!(
         "beams {:.0} mm³ without overlap at joints, for {:.0} mm³ of design ({:+.1} %); \
