@@ -28,8 +28,8 @@ struct Look {
     shortest: f64,
     /// Whether all places are cut before the first march.
     thinnest_first: bool,
-    /// Which pieces are looked at; the first look has no pieces yet.
-    pieces: fn(&Seen<'_>, &Patch) -> bool,
+    /// Which pieces of the cut surface are looked at; `None`: all of it, uncut.
+    pieces: Option<fn(&Seen<'_>, &Patch) -> bool>,
 }
 
 /// The looks, one after the other.
@@ -41,21 +41,21 @@ struct Look {
 /// look like one junction, the thinnest section first: a neck tells more than what surrounds it. At
 /// last, in pieces with a handle, any section across the handle will do.
 const LOOKS: [Look; 4] = [
-    Look { spacing: 1.0, reach: 6.0, shortest: 2.0, thinnest_first: false, pieces: |_, _| true },
-    Look { spacing: 3.0, reach: 40.0, shortest: 1.0, thinnest_first: false, pieces: |_, _| true },
+    Look { spacing: 1.0, reach: 6.0, shortest: 2.0, thinnest_first: false, pieces: None },
+    Look { spacing: 3.0, reach: 40.0, shortest: 1.0, thinnest_first: false, pieces: None },
     Look {
         spacing: 0.5,
         reach: 6.0,
         shortest: 0.5,
         thinnest_first: true,
-        pieces: may_hide_a_strut,
+        pieces: Some(may_hide_a_strut),
     },
     Look {
         spacing: 0.25,
         reach: 40.0,
         shortest: 0.0,
         thinnest_first: true,
-        pieces: |_, piece| piece.genus > 0,
+        pieces: Some(|_, piece| piece.genus > 0),
     },
 ];
 
@@ -88,19 +88,24 @@ pub(crate) fn find_tubes(
 ) -> Result<Found, SkeletonError> {
     let surface = march.surface;
     let mut tubes = Vec::new();
-    let mut cut = cut_open(surface, &tubes);
+    // The surface cut along all tubes, once it has been needed since the last was found.
+    let mut cut: Option<Patches> = None;
     for (round, look) in LOOKS.iter().enumerate() {
-        let seen = Seen { surface, tubes: &tubes };
-        let open: Vec<bool> = cut.all.iter().map(|p| (look.pieces)(&seen, p)).collect();
-        if !open.contains(&true) {
-            continue;
-        }
-        let wanted = |f: FaceId| {
-            surface.labels.is_design(f)
-                && cut.of_face[f.index()].is_none_or(|piece| open[piece as usize])
-        };
         let area_each = (look.spacing * mean_radius).powi(2);
-        let places = places(&surface.mesh, wanted, area_each);
+        let is_design = |f: FaceId| surface.labels.is_design(f);
+        let places = if let Some(is_wanted) = look.pieces {
+            let cut = cut.get_or_insert_with(|| cut_open(surface, &tubes));
+            let seen = Seen { surface, tubes: &tubes };
+            let open: Vec<bool> = cut.all.iter().map(|p| is_wanted(&seen, p)).collect();
+            if !open.contains(&true) {
+                continue;
+            }
+            let is_open =
+                |f: FaceId| cut.of_face[f.index()].is_none_or(|piece| open[piece as usize]);
+            places(&surface.mesh, |f| is_design(f) && is_open(f), area_each)
+        } else {
+            places(&surface.mesh, is_design, area_each)
+        };
         let before = tubes.len();
         let mut progress = |done| match observer.progress(
             Stage::Skeleton,
@@ -112,10 +117,11 @@ pub(crate) fn find_tubes(
         };
         search(march, &places, look, mean_radius, &mut tubes, &mut progress)?;
         if tubes.len() > before {
-            cut = cut_open(surface, &tubes);
+            cut = None;
         }
     }
-    Ok(Found { tubes, patches: cut })
+    let patches = cut.unwrap_or_else(|| cut_open(surface, &tubes));
+    Ok(Found { tubes, patches })
 }
 
 /// Cuts the surface along the middle contour of every tube.

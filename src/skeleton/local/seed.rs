@@ -53,14 +53,9 @@ fn spread(
     let area = 0.5 * (b - a).cross(&(c - a)).norm();
     if area > area_each && area.is_finite() {
         // Halve the longest side, which is turned to lie between a and b.
-        let (ab, bc, ca) = ((b - a).norm(), (c - b).norm(), (a - c).norm());
-        let [a, b, c] = if ab >= bc && ab >= ca {
-            [a, b, c]
-        } else if bc >= ca {
-            [b, c, a]
-        } else {
-            [c, a, b]
-        };
+        let corners = [a, b, c];
+        let first = longest_side(&corners);
+        let [a, b, c] = [0, 1, 2].map(|i| corners[(first + i) % 3]);
         let m = nalgebra::center(&a, &b);
         spread(face, [a, m, c], area_each, due, places);
         spread(face, [m, b, c], area_each, due, places);
@@ -128,17 +123,22 @@ impl March<'_> {
     }
 }
 
+/// The first of the longest sides of a triangle, equal ones found equal in spite of rounding.
+fn longest_side([a, b, c]: &[Point3<f64>; 3]) -> usize {
+    let lengths = [(b - a).norm(), (c - b).norm(), (a - c).norm()];
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    lengths.iter().position(|l| *l >= (1.0 - 1e-6) * longest).unwrap_or(0)
+}
+
 /// Tangents tied to the triangle, so that they turn with the model.
 fn tangents(
     mesh: &HalfEdgeMesh,
     face: FaceId,
     normal: &Unit<Vector3<f64>>,
 ) -> (Vector3<f64>, Vector3<f64>) {
-    let [a, b, c] = mesh.corners(face);
-    let longest = [b - a, c - b, a - c]
-        .into_iter()
-        .fold(Vector3::zeros(), |l, s| if s.norm_squared() > l.norm_squared() { s } else { l });
-    let u = longest.normalize();
+    let corners = mesh.corners(face);
+    let first = longest_side(&corners);
+    let u = (corners[(first + 1) % 3] - corners[first]).normalize();
     (u, normal.cross(&u))
 }
 
