@@ -11,9 +11,11 @@
 //! | file | how |
 //! |---|---|
 //! | `.png` | triangles drawn into a depth buffer at twice the size |
-//! | `.svg` | beams as polygons from back to front, outlines of the mesh, true text |
+//! | `.svg` | what is seen of the beams as polygons, outlines of the mesh, true text |
 
 mod camera;
+mod layers;
+mod outline;
 mod raster;
 mod svg;
 
@@ -22,7 +24,6 @@ use std::path::Path;
 
 use nalgebra::{Point3, Vector3};
 
-use super::decimate::Shown;
 use super::view::View;
 use camera::{Camera, Projection};
 
@@ -96,20 +97,11 @@ struct Facet {
     colour: [u8; 3],
 }
 
-/// A side of the mesh, and the normals of the two faces that meet there.
-struct Edge {
-    ends: [Point3<f64>; 2],
-    normals: [Vector3<f64>; 2],
-}
-
 /// What is drawn, as loose triangles and lines.
 struct Model {
     mesh: Vec<Facet>,
-    /// The mesh in fewer triangles, for its silhouette.
-    pale: Vec<Facet>,
     beams: Vec<Facet>,
     lines: Vec<[Point3<f64>; 2]>,
-    edges: Vec<Edge>,
     points: Vec<Point3<f64>>,
 }
 
@@ -127,10 +119,8 @@ impl Model {
             mesh: faces
                 .map(|(f, l)| Facet { corners: mesh.corners(f), colour: colour(l.is_design()) })
                 .collect(),
-            pale: pale(view),
             beams: beams.collect(),
             lines: view.skeleton.segments().map(|s| s.map(|p| view.skeleton.position(p))).collect(),
-            edges: edges(view),
             points: mesh.positions().to_vec(),
         }
     }
@@ -141,33 +131,8 @@ impl Model {
     }
 }
 
-/// Triangles a silhouette is drawn of: twice as many double the size of a vector picture, half as
-/// many show corners on round bars.
-const MOST_PALE: usize = 20_000;
-
-fn pale(view: &View<'_>) -> Vec<Facet> {
-    let shown = Shown::of(view.surface).reduced(MOST_PALE);
-    let facet = |(t, design): &([u32; 3], bool)| Facet {
-        corners: t.map(|v| shown.points[v as usize]),
-        colour: colour(*design),
-    };
-    shown.triangles.iter().map(facet).collect()
-}
-
 fn colour(design: bool) -> [u8; 3] {
     if design { DESIGN } else { NON_DESIGN }
-}
-
-fn edges(view: &View<'_>) -> Vec<Edge> {
-    let mesh = &view.surface.mesh;
-    let sides = mesh.faces().flat_map(|f| f.half_edges());
-    sides
-        .filter(|&h| h.index() < mesh.twin(h).index())
-        .map(|h| Edge {
-            ends: [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v)),
-            normals: [h.face(), mesh.neighbour(h)].map(|f| mesh.doubled_area_vector(f)),
-        })
-        .collect()
 }
 
 /// Where the light comes from, in the axes of the picture: from the upper left, before it.

@@ -161,7 +161,7 @@ fn pixels(
 }
 
 /// Calls `pixel` with the index and the depth of every pixel whose centre lies in a triangle.
-fn visit(
+pub(super) fn visit(
     [a, b, c]: &[Point3<f64>; 3],
     width: usize,
     height: usize,
@@ -178,8 +178,10 @@ fn visit(
     }
     let end = |high: f64, size: usize| (high.ceil().max(0.0) as usize).min(size);
     for y in low.y.floor().max(0.0) as usize..end(high.y, height) {
-        for x in low.x.floor().max(0.0) as usize..end(high.x, width) {
-            let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
+        let py = y as f64 + 0.5;
+        let (from, to) = span(&[[a, b], [b, c], [c, a]], py).unwrap_or((low.x, high.x));
+        for x in from.floor().max(0.0) as usize..end(to, width) {
+            let px = x as f64 + 0.5;
             let weights = [side(b, c, px, py), side(c, a, px, py), side(a, b, px, py)];
             if weights.iter().all(|w| w * whole >= 0.0) {
                 let depth = (weights[0] * a.z + weights[1] * b.z + weights[2] * c.z) / whole;
@@ -187,6 +189,15 @@ fn visit(
             }
         }
     }
+}
+
+/// Where a row enters a triangle and leaves it, a pixel to spare; `None` where it only touches.
+fn span(sides: &[[&Point3<f64>; 2]; 3], y: f64) -> Option<(f64, f64)> {
+    let crossings = sides.iter().filter(|[p, q]| (p.y <= y) != (q.y <= y));
+    let places = crossings.map(|[p, q]| p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x));
+    let (low, high) =
+        places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    (low <= high).then_some((low - 1.0, high + 1.0))
 }
 
 fn mixed(under: [u8; 3], over: [u8; 3], opacity: f32) -> [u8; 3] {

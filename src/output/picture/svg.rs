@@ -1,5 +1,6 @@
 //! Shapes: the mesh as a pale silhouette, beams from back to front, the skeleton on top.
 //!
+//! Inside a panel a tenth of a pixel is the unit, so that corners are whole numbers.
 //! Only presentation attributes are used, no style sheet: a page with a strict policy may hold it.
 
 use std::fmt::Write as _;
@@ -8,14 +9,16 @@ use std::io::{self, Write};
 use nalgebra::Point3;
 
 use super::camera::Camera;
+use super::layers::{Piece, layers};
+use super::outline::Outline;
 use super::{
-    DESIGN, Edge, Facet, Model, NON_DESIGN, Panel, Projection, SIZE, SKELETON, light, lit, panel,
+    DESIGN, Facet, Model, NON_DESIGN, Panel, Projection, SIZE, SKELETON, light, lit, panel,
 };
 use crate::output::view::View;
 
 /// Triangles longer than this part of the panel are cut, so that sorting by depth works where
-/// beams cross. Halving it doubles the file; at twice the length beams show through each other.
-const LONGEST: f64 = 0.15;
+/// beams cross.
+const LONGEST: f64 = 0.05;
 
 /// Light is drawn in so many steps: neighbouring facets then share a path.
 const SHADES: f64 = 24.0;
@@ -60,24 +63,38 @@ fn open([width, height]: [f64; 2]) -> String {
 
 fn draw(text: &mut String, model: &Model, panel: &Panel) {
     let camera = model.camera(panel);
-    silhouette(text, &model.pale, &camera, if panel.beams { 0.25 } else { 0.9 });
+    text.push_str("<g transform=\"scale(.1)\">\n");
+    silhouette(text, &model.mesh, &camera, if panel.beams { 0.25 } else { 0.9 });
     if panel.beams {
-        let longest = LONGEST * panel.place[2];
-        solids(text, &model.beams, &camera, longest);
+        solids(text, &model.beams, &camera, panel);
         lines(text, &model.lines, &camera);
     }
-    outlines(text, model, &camera);
+    rim(text, &model.mesh, &camera);
+    text.push_str("</g>\n");
+}
+
+/// Facets that look to the viewer, as they are seen.
+fn facing<'a>(
+    facets: impl IntoIterator<Item = &'a Facet>,
+    camera: &Camera,
+) -> impl Iterator<Item = [Point3<f64>; 3]> {
+    facets
+        .into_iter()
+        .filter(|f| camera.normal(&f.corners).z > 0.0)
+        .map(|f| f.corners.map(|p| camera.project(&p)))
+}
+
+/// The union of triangles as path data.
+fn union(triangles: impl Iterator<Item = [Point3<f64>; 3]>) -> String {
+    let mut outline = Outline::default();
+    triangles.for_each(|corners| outline.add(&corners));
+    outline.path()
 }
 
 /// All faces that look to the viewer, as one shape a colour.
 fn silhouette(text: &mut String, mesh: &[Facet], camera: &Camera, opacity: f64) {
     for colour in [DESIGN, NON_DESIGN] {
-        let mut path = String::new();
-        for facet in mesh.iter().filter(|f| f.colour == colour) {
-            if camera.normal(&facet.corners).z > 0.0 {
-                polygon(&mut path, &facet.corners.map(|p| camera.project(&p)));
-            }
-        }
+        let path = union(facing(mesh.iter().filter(|f| f.colour == colour), camera));
         if !path.is_empty() {
             let fill = hex(colour);
             let _ = writeln!(text, "<path fill=\"{fill}\" opacity=\"{opacity}\" d=\"{path}\"/>");
@@ -85,30 +102,41 @@ fn silhouette(text: &mut String, mesh: &[Facet], camera: &Camera, opacity: f64) 
     }
 }
 
-/// Opaque facets from back to front; neighbours in the order of one colour share a path.
-fn solids(text: &mut String, facets: &[Facet], camera: &Camera, longest: f64) {
-    let mut seen: Vec<(f64, [u8; 3], [Point3<f64>; 3])> = Vec::new();
+/// Where faces of the mesh begin to turn away.
+fn rim(text: &mut String, mesh: &[Facet], camera: &Camera) {
+    let path = union(facing(mesh, camera));
+    let _ = writeln!(
+        text,
+        "<path fill=\"none\" stroke=\"#5b6573\" stroke-width=\"5\" opacity=\".6\" d=\"{path}\"/>"
+    );
+}
+
+/// Opaque facets, layer upon layer.
+fn solids(text: &mut String, facets: &[Facet], camera: &Camera, panel: &Panel) {
+    let mut pieces = Vec::new();
     for facet in facets {
         let normal = camera.normal(&facet.corners);
         if normal.z > 0.0 {
             let shade = (light(&normal) * SHADES).round() / SHADES;
-            cut(facet.corners.map(|p| camera.project(&p)), longest, &mut |piece| {
-                let depth = piece.iter().map(|p| p.z).sum::<f64>();
-                seen.push((depth, lit(facet.colour, shade), piece));
-            });
+            let colour = lit(facet.colour, shade);
+            cut(
+                facet.corners.map(|p| camera.project(&p)),
+                LONGEST * panel.place[2],
+                &mut |corners| {
+                    pieces.push(Piece { corners, colour });
+                },
+            );
         }
     }
-    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for run in seen.chunk_by(|a, b| a.1 == b.1) {
-        let fill = hex(run[0].1);
-        let mut path = String::new();
-        run.iter().for_each(|(_, _, corners)| polygon(&mut path, corners));
-        // The stroke closes the hair lines between neighbours.
-        let _ = writeln!(
-            text,
-            "<path fill=\"{fill}\" stroke=\"{fill}\" stroke-width=\".4\" d=\"{path}\"/>"
-        );
+    // The stroke closes the hair lines between neighbours.
+    text.push_str("<g fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\"4\">\n");
+    for layer in layers(pieces, panel.place) {
+        let path = layer.outline.path();
+        if !path.is_empty() {
+            let _ = writeln!(text, "<path color=\"{}\" d=\"{path}\"/>", hex(layer.colour));
+        }
     }
+    text.push_str("</g>\n");
 }
 
 /// Halves a triangle across its longest side until no side is longer than `longest`.
@@ -133,32 +161,14 @@ fn lines(text: &mut String, lines: &[[Point3<f64>; 2]], camera: &Camera) {
     let stroke = hex(SKELETON);
     let _ = writeln!(
         text,
-        "<path fill=\"none\" stroke=\"{stroke}\" stroke-width=\"1.5\" \
+        "<path fill=\"none\" stroke=\"{stroke}\" stroke-width=\"15\" \
          stroke-linecap=\"round\" d=\"{path}\"/>"
     );
 }
 
-/// Edges of the mesh between a face that looks to the viewer and one that does not.
-fn outlines(text: &mut String, model: &Model, camera: &Camera) {
-    let mut path = String::new();
-    for Edge { ends, normals } in &model.edges {
-        let [a, b] = normals.map(|n| camera.turn(&n).z > 0.0);
-        if a != b {
-            line(&mut path, &ends.map(|p| camera.project(&p)));
-        }
-    }
-    let _ = writeln!(
-        text,
-        "<path fill=\"none\" stroke=\"#5b6573\" stroke-width=\".5\" opacity=\".6\" d=\"{path}\"/>"
-    );
-}
-
-fn polygon(path: &mut String, [a, b, c]: &[Point3<f64>; 3]) {
-    let _ = write!(path, "M{:.1} {:.1}L{:.1} {:.1} {:.1} {:.1}Z", a.x, a.y, b.x, b.y, c.x, c.y);
-}
-
 fn line(path: &mut String, [a, b]: &[Point3<f64>; 2]) {
-    let _ = write!(path, "M{:.1} {:.1}L{:.1} {:.1}", a.x, a.y, b.x, b.y);
+    let [a, b] = [a, b].map(|p| [p.x, p.y].map(|x| (10.0 * x).round() as i32));
+    let _ = write!(path, "M{} {}L{} {}", a[0], a[1], b[0], b[1]);
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {
