@@ -16,6 +16,7 @@ import json
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from playwright.sync_api import Browser, Page, sync_playwright
@@ -159,6 +160,71 @@ def cut_list(page: Page, name: str, table: Path, listed: Path) -> None:
     page.locator("#view").press("Escape")
 
 
+def subdivided(mesh: Path, folder: Path) -> Path:
+    """The mesh of an OBJ file with every triangle cut into four."""
+    points: list[list[float]] = []
+    lines: list[str] = []
+    middles: dict[tuple[int, int], int] = {}
+
+    def middle(a: int, b: int) -> int:
+        side = (min(a, b), max(a, b))
+        if side not in middles:
+            points.append([(x + y) / 2 for x, y in zip(points[a - 1], points[b - 1])])
+            middles[side] = len(points)
+        return middles[side]
+
+    for line in mesh.read_text().splitlines():
+        kind, _, rest = line.partition(" ")
+        if kind == "v":
+            points.append([float(x) for x in rest.split()[:3]])
+        elif kind == "f":
+            a, b, c = (int(corner.split("/")[0]) for corner in rest.split())
+            p, q, r = middle(a, b), middle(b, c), middle(c, a)
+            lines += [f"f {i} {j} {k}" for i, j, k in ((a, p, r), (p, b, q), (r, q, c), (p, q, r))]
+        else:
+            lines.append(line)
+    fine = folder / f"{mesh.stem}_fine.obj"
+    fine.write_text("\n".join([*(f"v {x} {y} {z}" for x, y, z in points), *lines]) + "\n")
+    return fine
+
+
+#: Seconds within which a report of 50,000 triangles shows its 3D view, at the best of some tries.
+PATIENCE = 2.0
+
+
+def large(browser: Browser, program: Path, samples: Path, folder: Path) -> None:
+    """Weight and opening time of large reports; a view of fewer triangles says so."""
+    html = report(program, subdivided(samples / "cantilever.obj", folder), folder)
+    size = html.stat().st_size / 1e6
+    check(size < 5, f"46,912 triangles: {size:.1f} MB")
+    best = min(opening(browser, html) for _ in range(5))
+    check(best < PATIENCE, f"46,912 triangles: open in {best:.1f} s")
+    html = report(program, subdivided(samples / "quadpod.obj", folder), folder)
+    page, faults = opened(browser, html)
+    shown = page.get_by_text("thinned surface of").text_content() or ""
+    check("126744" in shown and not faults, f"more than 100,000 triangles: {shown}")
+    page.close()
+
+
+def opening(browser: Browser, html: Path) -> float:
+    """Seconds until the 3D view of a report is drawn."""
+    page = browser.new_page()
+    begin = time.monotonic()
+    page.goto(html.as_uri())
+    page.wait_for_selector("html[data-drawn]")
+    seconds = time.monotonic() - begin
+    page.close()
+    return seconds
+
+
+def vector_pictures(program: Path, samples: Path, folder: Path) -> None:
+    """Pictures as shapes are no heavier than those as pixels."""
+    for mesh in sorted(samples.glob("*.obj")):
+        picture = folder / f"{mesh.stem}.svg"
+        report(program, mesh, folder, "--picture", picture)
+        check(picture.stat().st_size < 1e6, f"{picture.name}: {picture.stat().st_size / 1e3:.0f} kB")
+
+
 def hostile(samples: Path, folder: Path) -> Path:
     """A mesh with a name that would be a script."""
     mesh = folder / "hostile.obj"
@@ -185,6 +251,8 @@ def main() -> None:
             use(page, sample, pictures)
             check(not faults, f"{sample}: no complaint {faults[:3]}")
             page.close()
+        large(browser, program, samples, folder)
+        vector_pictures(program, samples, folder)
         html = report(program, hostile(samples, folder), folder)
         page, faults = opened(browser, html)
         check(page.locator("img[src=x]").count() == 0, "hostile: the name makes no element")

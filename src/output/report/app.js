@@ -146,7 +146,7 @@
       const geometry = new V.BufferGeometry();
       geometry.setAttribute("position", places);
       geometry.setIndex(new V.BufferAttribute(indices(packed), 1));
-      const material = new V.MeshLambertMaterial({ color: colour, transparent: true, opacity, flatShading: true, side: V.DoubleSide, depthWrite: false });
+      const material = new V.MeshLambertMaterial({ color: colour, transparent: true, opacity, flatShading: true, side: V.DoubleSide, forceSinglePass: true, depthWrite: false });
       const mesh = new V.Mesh(geometry, material);
       mesh.renderOrder = 2;
       return mesh;
@@ -346,6 +346,9 @@
       return null;
     }
   }
+
+  /** The 3D view, once it is made; null where the browser has no WebGL. */
+  let viewer = null;
 
   // ---- selection -------------------------------------------------------------------------------
 
@@ -548,11 +551,8 @@
   for (const [i] of scene.skeleton.branches.entries()) $("branch").append(new Option(`${i + 1}`, String(i)));
   $("branch").addEventListener("change", plotBranch);
 
-  const viewer = makeViewer();
-  for (const box of document.querySelectorAll("input[data-layer]")) {
-    box.addEventListener("change", () => viewer?.show(box.dataset.layer, box.checked));
-    if (!box.checked) viewer?.show(box.dataset.layer, false);
-  }
+  const layers = document.querySelectorAll("input[data-layer]");
+  for (const box of layers) box.addEventListener("change", () => viewer?.show(box.dataset.layer, box.checked));
   document.querySelector("[data-needs=peers]").hidden = scene.peers.length === 0;
   for (const button of document.querySelectorAll("[data-look]")) button.addEventListener("click", () => viewer?.look(button.dataset.look));
   for (const button of document.querySelectorAll("[data-finding]")) {
@@ -564,8 +564,14 @@
     viewer?.paint(colours.beams, chosen);
   });
   showLegend(colours);
-  viewer?.paint(colours.beams, chosen);
   setTheme(dark.matches ? "dark" : "light");
+  // Words and tables are on the screen before the 3D view, which takes its time without a graphics card.
+  requestAnimationFrame(() => setTimeout(() => {
+    viewer = makeViewer();
+    for (const box of layers) viewer?.show(box.dataset.layer, box.checked);
+    viewer?.paint(colours.beams, chosen);
+    viewer?.theme();
+  }));
   let settled;
   addEventListener("resize", () => {
     clearTimeout(settled);
