@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::axis::{Axis, axis_at_start};
-use super::draft::{Draft, HubKind};
+use super::draft::{Draft, HubKind, Run, Station};
 use crate::mesh::Surface;
 use crate::skeleton::inside::middle_of_wall;
 
@@ -49,19 +49,21 @@ pub(crate) fn place_joints(draft: &mut Draft, surface: &Surface) {
         }
         let axes: Vec<Axis> = axes_at(draft, runs).into_iter().flatten().collect();
         let rough = draft.hubs[hub].position;
-        let meeting = within_reach(draft, runs, meeting_point(&axes, &rough), rough);
+        let meeting = within_reach(draft, runs, &axes, rough);
         draft.hubs[hub].position = nearest_inside(surface, meeting, rough);
     }
 }
 
 /// The meeting point, drawn back to the ball round the joint in which its branches end: axes that
-/// run side by side meet far away.
+/// run side by side meet far away. Legs that part at a few degrees fill one thick branch before
+/// they do; the march took that for the stem, in whose way their axes meet.
 fn within_reach(
     draft: &Draft,
     runs: &[(usize, usize)],
-    meeting: Point3<f64>,
+    axes: &[Axis],
     rough: Point3<f64>,
 ) -> Point3<f64> {
+    let meeting = meeting_point(axes, &rough);
     let reach = runs
         .iter()
         .filter_map(|&(r, end)| {
@@ -71,7 +73,37 @@ fn within_reach(
         })
         .fold(0.0f64, f64::max);
     let away = meeting - rough;
-    if away.norm() > reach { rough + away * (reach / away.norm()) } else { meeting }
+    if away.norm() <= reach || is_in_a_stem(draft, runs, axes, &meeting) {
+        return meeting;
+    }
+    rough + away * (reach / away.norm())
+}
+
+/// Axes that pass each other within this part of their radius meet. Those of a plain fork miss each
+/// other by hundredths; where webs of an optimized part run together, by tenths, and any place on
+/// their way is as good.
+const MEETS: f64 = 0.1;
+
+/// Whether all axes meet in a place within one of the branches.
+fn is_in_a_stem(
+    draft: &Draft,
+    runs: &[(usize, usize)],
+    axes: &[Axis],
+    meeting: &Point3<f64>,
+) -> bool {
+    axes.iter().all(|axis| axis.distance(meeting) <= MEETS * axis.radius)
+        && runs.iter().any(|&(r, end)| is_on_the_way(&draft.runs[r], end, meeting))
+}
+
+/// Whether a place lies in one of the sections of a run's nearer half.
+fn is_on_the_way(run: &Run, end: usize, place: &Point3<f64>) -> bool {
+    let nearer = run.stations.len() / 2;
+    let holds = |s: &Station| (s.centroid - place).norm() <= s.radius;
+    if end == 0 {
+        run.stations.iter().take(nearer).any(holds)
+    } else {
+        run.stations.iter().rev().take(nearer).any(holds)
+    }
 }
 
 /// `wanted`, or the point nearest to it on the way to `fallback` that lies inside, or the middle of

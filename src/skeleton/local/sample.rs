@@ -76,12 +76,34 @@ pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) 
             }
         }
     }
+    let strays = [0, 1].map(|end| {
+        let beside = |i: usize| {
+            let reach = BESIDE * trend.at(i as f64 / last as f64);
+            is_bend(hubs[end].kind) && (points[i] - hubs[end].position).norm() < reach
+        };
+        strays(&shares, end, beside)
+    });
+    strays.into_iter().flatten().for_each(|i| shares[i] = 0.0);
     placed(&shares)
         .map(|i| {
             let position = kept_inside(surface, points[i], curve_point(&curve, i, last));
             Sample { position, radius: radii[i] }
         })
         .collect()
+}
+
+/// Within so many radii of a joint a point is placed only next to another one. Legs that part at a
+/// few degrees begin as one section hardly larger than their own, between them.
+const BESIDE: f64 = 2.0;
+
+/// Points beside the joint at one end, up to the last one without a placed neighbour on the far
+/// side.
+fn strays(shares: &[f64], end: usize, beside: impl Fn(usize) -> bool) -> Vec<usize> {
+    let last = shares.len() - 1;
+    let from_end = |k: usize| if end == 0 { k } else { last - k };
+    let count = (1..last).take_while(|&k| beside(from_end(k))).count();
+    let stray = (1..=count).rev().find(|&k| k + 1 < last && shares[from_end(k + 1)] < OWN);
+    (1..=stray.unwrap_or(0)).map(from_end).collect()
 }
 
 /// The points whose section is the branch's own; at least one, so that two branches between the
