@@ -2,7 +2,7 @@
 
 mod common;
 
-use beamwright::skeleton::{Marched, SkeletonError, SkeletonParams, march};
+use beamwright::skeleton::{Marched, PointKind, SkeletonError, SkeletonParams, march};
 use common::TestMesh;
 use common::families::{cylinder, cylinder_between_pads, quarter_bend, together, torus};
 use common::frame;
@@ -31,6 +31,7 @@ fn parts() -> Vec<(&'static str, TestMesh, [usize; 2])> {
         ("cross", frame::cross().mesh(1.0), [1, 0]),
         ("table", frame::table().mesh(1.0), [1, 1]),
         ("cube of struts without labels", frame::cube().mesh(1.0), [1, 5]),
+        ("fork of 20°", frame::fork(20.0).mesh(1.0), [1, 0]),
         ("close pair of junctions", frame::close_pair().mesh(1.0), [1, 0]),
     ]
 }
@@ -70,5 +71,19 @@ fn every_skeleton_lies_inside_and_has_the_tunnels_of_its_part() {
 fn noise_of_a_twentieth_of_an_edge_changes_no_topology() {
     for (name, mesh, topology) in parts().into_iter().filter(|p| p.0 != "prism of three sides") {
         assert_sound(name, &with_noise(&mesh, 0.05), topology);
+    }
+}
+
+/// Legs that part at a small angle run in one section for many radii behind their joint.
+#[test]
+fn legs_of_a_fork_meet_where_their_axes_do() {
+    for angle in [20.0, 30.0, 45.0, 90.0] {
+        let truth = frame::fork(angle);
+        let skeleton = marched(&truth.mesh(1.0)).expect("a skeleton").skeleton;
+        let joints: Vec<_> =
+            skeleton.points.iter().filter(|p| p.kind == PointKind::Junction).collect();
+        assert_eq!(joints.len(), 1, "{angle}°");
+        let off = (joints[0].position - nalgebra::Point3::from(truth.nodes[1])).norm();
+        assert!(off < 0.2 * 3.0, "{angle}°: {off} mm");
     }
 }

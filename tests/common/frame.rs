@@ -174,3 +174,19 @@ pub fn close_pair() -> TrueFrame {
         pad: 5.5,
     }
 }
+
+/// A stem that forks into two legs `angle` degrees apart; its joint is node 1.
+pub fn fork(angle: f64) -> TrueFrame {
+    let (sin, cos) = (0.5 * angle).to_radians().sin_cos();
+    TrueFrame {
+        nodes: vec![
+            [0.0, 0.0, 0.0],
+            [45.0, 0.0, 0.0],
+            [45.0 + 60.0 * cos, 60.0 * sin, 0.0],
+            [45.0 + 60.0 * cos, -60.0 * sin, 0.0],
+        ],
+        struts: vec![([0, 1], equal(4.0)), ([1, 2], equal(3.0)), ([1, 3], equal(3.0))],
+        pads: vec![0, 2, 3],
+        pad: 5.5,
+    }
+}
