@@ -65,6 +65,68 @@ fn options_written_to_a_file_give_the_same_result_when_read() -> Outcome {
     Ok(())
 }
 
+/// Words that set options of a command to other values than their own.
+const CHOSEN: [(&str, &str); 5] = [
+    (
+        "reconstruct in.obj -o out.step --unit cm --non-design-box -1,-2,-3,1,2,3 \
+         --non-design-name pad* --orientation global --step 1.5 --width-ratio 1.4 \
+         --max-deviation 0.7 --continuous --profile catalogue:CHS,IPE --match area --loft taper \
+         --joints trim --max-profiles 3 --catalogue own.csv --material S355 \
+         --elastic-modulus 70000 --poisson 0.33 --stock-length 6000 --kerf 3 --no-non-design \
+         --density 2700 --json --strict",
+        "verbose",
+    ),
+    ("skeleton in.obj -o out.json --unit in --step 2.0 --orientation global --json", "quiet"),
+    (
+        "evaluate in.obj s.json --skeleton-unit m --post-process=cut --resample 2 --cube 3.5 \
+         --sphere box --strict",
+        "quiet",
+    ),
+    ("inspect in.obj --unit m --non-design-box 0,0,0,1,1,1 --json", "verbose"),
+    ("profiles --family CHS,IPE --json --catalogue own.csv", "quiet"),
+];
+
+#[test]
+fn every_option_stands_in_the_file_and_comes_back() -> Outcome {
+    // What one run reads and writes is no part of a file for many.
+    let of_one_run = "config write-config output out-dir cut-list skeleton sections export picture \
+                      report compare non-design help version";
+    let folder = tempfile::tempdir()?;
+    for (words, global) in CHOSEN {
+        let flag = format!("--{global}");
+        let words: Vec<&str> = words.split_whitespace().collect();
+        let write = |options: &[&str], file: &str| {
+            let words = [options, &["--write-config", file]].concat();
+            beamwright(folder.path(), &words).map(|done| assert!(done.status.success(), "{done:?}"))
+        };
+        write(&[&words[..], &[&flag, "--progress", "json"]].concat(), "a.toml")?;
+        let first = std::fs::read_to_string(folder.path().join("a.toml"))?;
+        let help = beamwright(folder.path(), &[words[0], "--help"])?;
+        for option in long_options(&String::from_utf8(help.stdout)?) {
+            let named =
+                |line: &str| line.trim_start_matches("# ").starts_with(&format!("{option} ="));
+            let is_listed = first.lines().any(named);
+            let is_of_one_run = of_one_run.split_whitespace().any(|o| o == option);
+            assert!(is_listed || is_of_one_run, "{}: {option}", words[0]);
+        }
+        let inputs = words.iter().take_while(|w| !w.starts_with("--")).copied();
+        let again: Vec<&str> = inputs.chain(["--config", "a.toml"]).collect();
+        write(&again, "b.toml")?;
+        assert_eq!(std::fs::read_to_string(folder.path().join("b.toml"))?, first, "{}", words[0]);
+    }
+    Ok(())
+}
+
+/// Names of the long options in a help text.
+fn long_options(help: &str) -> Vec<String> {
+    let named = |line: &str| {
+        let line = line.trim_start();
+        let option = line.strip_prefix("--").or_else(|| line.get(4..)?.strip_prefix("--"))?;
+        line.starts_with('-').then(|| option.split([' ', '=', '[']).next().unwrap_or("").to_owned())
+    };
+    help.lines().filter_map(named).collect()
+}
+
 #[test]
 fn an_unknown_option_in_the_file_is_named() -> Outcome {
     let folder = tempfile::tempdir()?;

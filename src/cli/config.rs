@@ -113,7 +113,7 @@ pub(crate) fn write(file: &Path, typed: &[OsString]) -> Result<Exit, Failure> {
     let Some((name, matches)) = matches.subcommand() else { return Ok(Exit::Done) };
     let Some(command) = all.find_subcommand(name) else { return Ok(Exit::Done) };
     let mut text = format!("# Options of beamwright {name}; see beamwright {name} --help.\n");
-    for arg in command.get_arguments() {
+    for arg in command.get_arguments().chain(all.get_arguments()) {
         let Some(long) = arg.get_long().filter(|l| !OF_ONE_RUN.contains(l)) else { continue };
         let help = arg.get_help().map(|h| h.to_string()).unwrap_or_default();
         text += &format!("\n# {help}\n");
