@@ -28,10 +28,10 @@
     offset: { label: "off-centre, section radii", value: (b) => b.offset },
     area: { label: "area, mm²", value: (b) => b.area },
     deviation: { label: "deviation, mm", value: (b) => b.deviation },
-    error: { label: "match error", value: (b) => b.error },
+    error: { label: "match error, %", value: (b) => (b.error === null ? null : 100 * b.error) },
   };
   const css = (rgb) => (rgb ? `rgb(${rgb.join(" ")})` : MISSING);
-  const figure = (x) => (x === null || x === undefined ? "–" : Number(x.toPrecision(3)).toString());
+  const figure = (x) => (x === null || x === undefined ? "–" : Math.abs(x) < 1e-6 ? "0" : Number(x.toPrecision(3)).toString());
 
   function ramp(t) {
     const at = Math.min(Math.max(t, 0), 1) * (RAMP.length - 1);
@@ -128,15 +128,17 @@
       this.layers.skeleton = this.lines(skeleton.points, segments, style("--ink"), true);
       const junctions = skeleton.points.filter((_, i) => skeleton.kinds[i] === KIND.junction);
       this.layers.junctions = this.balls(junctions, 0.0045, 0x6a3dff);
-      const out = [[skeleton.points, skeleton.outside], ...scene.peers.map((p) => [p.points, p.outside])];
-      this.layers.outside = this.balls(out[0][1].map((i) => out[0][0][i]), 0.007, 0x000000);
+      this.layers.outside = this.balls(skeleton.outside.map((i) => skeleton.points[i]), 0.007, 0x000000);
+      this.outside = [this.layers.outside];
       this.layers.outlines = this.outlines();
       this.layers.peers = new V.Group();
       scene.peers.forEach((peer, i) => {
         this.layers.peers.add(this.lines(peer.points, peer.segments, ["#8e24aa", "#00838f", "#c0392b", "#6d4c41"][i % 4], true));
-        this.layers.peers.add(this.balls(peer.outside.map((k) => peer.points[k]), 0.006, 0x000000));
+        const outside = this.balls(peer.outside.map((k) => peer.points[k]), 0.006, 0x000000);
+        this.layers.peers.add(outside);
+        this.outside.push(outside);
       });
-      this.pin = this.balls([[0, 0, 0]], 0.012, 0xff3d00);
+      this.pin = this.balls([[0, 0, 0]], 0.006, 0xff3d00);
       this.pin.visible = false;
       this.scene.add(this.pin, ...Object.values(this.layers));
     }
@@ -293,8 +295,10 @@
       if (turn) this.turn(...turn);
       else if (zoom) this.turn(0, 0, zoom);
       else if (event.key === "f" || event.key === "F") this.look("fit");
-      else if (event.key === "Escape") choose([], false);
-      else return;
+      else if (event.key === "Escape") {
+        this.pin.visible = false;
+        choose([], false);
+      } else return;
       event.preventDefault();
     }
 
@@ -309,7 +313,7 @@
 
     theme() {
       this.layers.skeleton.material.color.set(style("--ink"));
-      this.layers.outside.material.color.set(root.dataset.theme === "dark" ? "#ffffff" : "#000000");
+      for (const balls of this.outside) balls.material.color.set(root.dataset.theme === "dark" ? "#ffffff" : "#000000");
       this.draw();
     }
 
