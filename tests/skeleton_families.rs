@@ -2,10 +2,12 @@
 
 mod common;
 
+use beamwright::finding::FindingKind;
 use beamwright::skeleton::{Marched, PointKind, SkeletonError, SkeletonParams, march};
 use common::TestMesh;
 use common::families::{cylinder, cylinder_between_pads, quarter_bend, together, torus};
 use common::frame;
+use common::march_cubes::surface_of;
 
 fn marched(mesh: &TestMesh) -> Result<Marched, SkeletonError> {
     march(&mesh.surface(), &SkeletonParams::default(), &mut ())
@@ -85,5 +87,21 @@ fn legs_of_a_fork_meet_where_their_axes_do() {
         assert_eq!(joints.len(), 1, "{angle}°");
         let off = (joints[0].position - nalgebra::Point3::from(truth.nodes[1])).norm();
         assert!(off < 0.2 * 3.0, "{angle}°: {off} mm");
+    }
+}
+
+fn is_told_not_beam_like(marched: &Marched) -> bool {
+    marched.findings.iter().any(|f| f.kind == FindingKind::NotBeamLike)
+}
+
+#[test]
+fn a_plate_is_said_to_be_no_beam_and_beams_are_not() {
+    let half = [30.0, 25.0, 2.0];
+    let distance =
+        |p: [f64; 3]| (0..3).map(|k| p[k].abs() - half[k]).fold(f64::NEG_INFINITY, f64::max);
+    let plate = surface_of(distance, half.map(|h| -h - 3.3), half.map(|h| h + 3.3), 1.0);
+    assert!(is_told_not_beam_like(&marched(&plate).expect("a skeleton")));
+    for (name, mesh, _) in parts() {
+        assert!(!is_told_not_beam_like(&marched(&mesh).expect("a skeleton")), "{name}");
     }
 }

@@ -12,9 +12,11 @@
 //! | [`global`] | the box stays aligned with the axes (§3.4): the thesis as written |
 //! | [`graph`] | the result: points joined to branches |
 //! | [`verify`] | what always has to hold of it |
+//! | `coverage` | what of the part it says nothing about |
 //!
 //! Everything is relative to the size of the part; nothing depends on the frame it is given in.
 
+mod coverage;
 mod detour;
 pub mod error;
 pub mod global;
@@ -23,6 +25,7 @@ pub mod identifier_box;
 pub(crate) mod inside;
 pub mod local;
 pub mod params;
+mod places;
 pub mod verify;
 
 pub use error::SkeletonError;
@@ -57,5 +60,6 @@ pub fn march(
         Orientation::Global => global::skeleton(surface, params, observer)?,
     };
     marched.findings.extend(verify::verify(surface, &marched.skeleton));
+    marched.findings.extend(coverage::uncovered(surface, &marched.skeleton));
     Ok(marched)
 }

@@ -11,12 +11,12 @@ use super::draft::{Station, reversed, stations_of};
 use super::junction::meeting_point;
 use super::march::{March, Tube};
 use super::patch::{CutSide, Patch, Patches, patches};
-use super::seed::{Place, places};
 use crate::mesh::contour::Contour;
 use crate::mesh::id::FaceId;
 use crate::mesh::{InterfaceKind, Surface};
 use crate::observer::{Observer, Stage};
 use crate::skeleton::error::SkeletonError;
+use crate::skeleton::places::{Place, places};
 
 /// One way of looking: how dense, and how long a tube must be to count.
 struct Look {

@@ -1,0 +1,68 @@
+//! Places spread evenly over the surface.
+
+use nalgebra::Point3;
+
+use crate::mesh::HalfEdgeMesh;
+use crate::mesh::id::FaceId;
+
+/// A place on the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) face: FaceId,
+    pub(crate) point: Point3<f64>,
+}
+
+/// Most places of one mesh. Parts of a thousand struts have some ten thousand; a single corner far
+/// out in space would ask for more than there is memory.
+const MOST_PLACES: f64 = 65_536.0;
+
+/// Places spread over the design faces, one for about `area_each` mm², [`MOST_PLACES`] at most.
+///
+/// Small triangles share a place; large ones are cut in halves until each part has one.
+pub(crate) fn places(
+    mesh: &HalfEdgeMesh,
+    is_design: impl Fn(FaceId) -> bool,
+    area_each: f64,
+) -> Vec<Place> {
+    let design = || mesh.faces().filter(|f| is_design(*f));
+    let total: f64 = design().map(|f| 0.5 * mesh.doubled_area_vector(f).norm()).sum();
+    let area_each = area_each.max(total / MOST_PLACES);
+    let mut places = Vec::new();
+    let mut due = 0.5;
+    for face in design() {
+        spread(face, mesh.corners(face), area_each, &mut due, &mut places);
+    }
+    places
+}
+
+fn spread(
+    face: FaceId,
+    [a, b, c]: [Point3<f64>; 3],
+    area_each: f64,
+    due: &mut f64,
+    places: &mut Vec<Place>,
+) {
+    let area = 0.5 * (b - a).cross(&(c - a)).norm();
+    if area > area_each && area.is_finite() {
+        // Halve the longest side, which is turned to lie between a and b.
+        let corners = [a, b, c];
+        let first = longest_side(&corners);
+        let [a, b, c] = [0, 1, 2].map(|i| corners[(first + i) % 3]);
+        let m = nalgebra::center(&a, &b);
+        spread(face, [a, m, c], area_each, due, places);
+        spread(face, [m, b, c], area_each, due, places);
+        return;
+    }
+    *due += area / area_each;
+    if *due >= 1.0 {
+        *due -= 1.0;
+        places.push(Place { face, point: Point3::from((a.coords + b.coords + c.coords) / 3.0) });
+    }
+}
+
+/// The first of the longest sides of a triangle, equal ones found equal in spite of rounding.
+pub(super) fn longest_side([a, b, c]: &[Point3<f64>; 3]) -> usize {
+    let lengths = [(b - a).norm(), (c - b).norm(), (a - c).norm()];
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    lengths.iter().position(|l| *l >= (1.0 - 1e-6) * longest).unwrap_or(0)
+}
