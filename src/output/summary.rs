@@ -280,6 +280,29 @@ impl FindingSummary {
     }
 }
 
+/// Columns of the table, and of those before its texts.
+const WIDTH: usize = 80;
+const INDENT: usize = 12;
+
+/// A text in lines, broken between words but not at no-break spaces. A control character, which
+/// would command the terminal, is shown as `?`.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let plain: String = text.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
+    let mut lines = vec![String::new()];
+    for word in plain.split(' ').filter(|word| !word.is_empty()) {
+        let line = lines.last_mut().filter(|l| !l.is_empty());
+        match line {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            Some(_) => lines.push(word.to_owned()),
+            None => lines = vec![word.to_owned()],
+        }
+    }
+    lines.iter().map(|line| line.replace('\u{a0}', " ")).collect()
+}
+
 /// A count as "1,234,567".
 fn grouped(n: usize) -> String {
     let digits = n.to_string();
@@ -295,7 +318,11 @@ fn grouped(n: usize) -> String {
 
 impl Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut row = |name: &str, text: &str| writeln!(f, "{name:<11} {text}");
+        let mut row = |name: &str, text: &str| {
+            wrapped(text, WIDTH - INDENT).iter().enumerate().try_for_each(|(i, line)| {
+                writeln!(f, "{:<INDENT$}{line}", if i == 0 { name } else { "" })
+            })
+        };
         row("input", &self.input)?;
         row("mesh", &mesh_line(&self.mesh))?;
         if !self.mesh.mended.is_empty() {
@@ -399,8 +426,8 @@ pub(super) fn frame_line(frame: &FrameSummary) -> String {
 pub(super) fn volume_line(frame: &FrameSummary) -> String {
     let part = |volume: f64| 100.0 * volume / frame.design_volume;
     format!(
-        "beams {:.0} mm³ without overlap at joints, for {:.0} mm³ of design ({:+.1} %); \
-         {:.1} % stick out",
+        "beams {:.0} mm³ without overlap at joints, for {:.0} mm³ of design \
+         ({:+.1}\u{a0}%); {:.1}\u{a0}% stick out",
         frame.volume_together,
         frame.design_volume,
         part(frame.volume_together) - 100.0,
@@ -410,7 +437,9 @@ pub(super) fn volume_line(frame: &FrameSummary) -> String {
 
 fn finding_line(finding: &FindingSummary) -> String {
     match finding.place {
-        Some([x, y, z]) => format!("{} at ({x:.2}, {y:.2}, {z:.2}) mm", finding.text),
+        Some([x, y, z]) => {
+            format!("{} at ({x:.2},\u{a0}{y:.2},\u{a0}{z:.2})\u{a0}mm", finding.text)
+        }
         None => finding.text.clone(),
     }
 }
@@ -418,6 +447,15 @@ fn finding_line(finding: &FindingSummary) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn texts_are_broken_between_words_within_the_width() {
+        assert_eq!(wrapped("aa bb cc dd", 5), ["aa bb", "cc dd"]);
+        assert_eq!(wrapped("a-long-word b", 5), ["a-long-word", "b"]);
+        assert_eq!(wrapped("red \u{1b}[31m", 20), ["red ?[31m"]);
+        assert_eq!(wrapped("at (1,\u{a0}2)", 5), ["at", "(1, 2)"]);
+        assert_eq!(wrapped("", 5), [""]);
+    }
 
     #[test]
     fn counts_are_grouped_by_three() {

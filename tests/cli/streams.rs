@@ -1,5 +1,6 @@
 //! Results go to standard output, everything else to standard error.
 
+use std::path::Path;
 use std::process::Stdio;
 
 use serde_json::Value;
@@ -20,6 +21,23 @@ fn a_run_into_a_pipe_says_nothing_on_standard_error() {
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     assert!(ran.stdout.starts_with("input       bar.obj\n"), "{}", ran.stdout);
     assert!(!ran.stdout.contains('\u{1b}'), "no colours in a pipe");
+}
+
+#[test]
+fn tables_fit_80_columns() {
+    let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples");
+    let folder = tempfile::tempdir().expect("a folder");
+    for sample in ["cantilever.obj", "quadpod.obj"] {
+        let mesh = samples.join(sample).to_string_lossy().into_owned();
+        for words in [
+            &["inspect", &mesh][..],
+            &["reconstruct", &mesh, "-o", "out.step", "--max-profiles", "1"],
+        ] {
+            for line in run(folder.path(), words).succeeded().lines() {
+                assert!(line.chars().count() <= 80, "{line}");
+            }
+        }
+    }
 }
 
 #[test]
