@@ -191,3 +191,68 @@ fn skeletal_point(station: &Station) -> SkeletalPoint {
     let radius = 0.25 * (station.bounds.width(a) + station.bounds.width(b));
     SkeletalPoint { position: station.piece.barycentre, radius, kind: PointKind::Branch }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_bars::{LENGTH, bars};
+    use super::*;
+    use crate::mesh::Surface;
+    use nalgebra::Point3;
+
+    fn marcher(surface: &Surface) -> Marcher<'_> {
+        let nodes = surface.mesh.positions();
+        Marcher {
+            scanner: Scanner::new(surface),
+            interface_of: vec![None; nodes.len()],
+            width_ratio: 1.3,
+            extent: IdentifierBox::around(nodes.iter().copied()).expect("nodes"),
+        }
+    }
+
+    /// From the end of the first bar at x = 0, two rings a step.
+    fn start() -> Start {
+        let end = [Point3::new(-0.5, 0.0, 0.0), Point3::new(-0.5, 1.0, 1.0)];
+        Start {
+            origin: Origin::FreeEnd,
+            direction: Direction { axis: 0, is_positive: true },
+            bounds: IdentifierBox::around(end).expect("two points"),
+            nodes: Vec::new(),
+            first: None,
+            step: 2.0,
+        }
+    }
+
+    #[test]
+    fn a_straight_bar_gives_the_middle_of_every_box_and_ends_with_nothing_ahead() {
+        let surface = bars(&[0.0]);
+        let (points, end) = marcher(&surface).march(start(), &Sketch::default());
+        assert_eq!(end, End::Vacant);
+        let x: Vec<f64> = points.iter().map(|p| p.position.x).collect();
+        assert_eq!(x, [0.5, 2.5, 4.5, 6.5, 8.5, LENGTH as f64]);
+        assert!(points.iter().all(|p| p.position.y == 0.5 && p.position.z == 0.5));
+        assert!(points.iter().all(|p| p.radius == 0.5));
+    }
+
+    #[test]
+    fn a_box_that_meets_a_known_junction_ends_the_branch_there() {
+        let surface = bars(&[0.0]);
+        let mut known = Sketch::default();
+        let bounds = IdentifierBox::cube(Point3::new(7.0, 0.5, 0.5), 1.0);
+        let junction = known.add_junction(bounds, 1, 2.0);
+        let (points, end) = marcher(&surface).march(start(), &known);
+        assert!(matches!(end, End::Junction { junction: j, .. } if j == junction), "{end:?}");
+        assert!(points.iter().all(|p| p.position.x < 6.5));
+    }
+
+    #[test]
+    fn a_box_that_reaches_an_interface_section_ends_the_branch_there() {
+        let surface = bars(&[0.0]);
+        let mut marcher = marcher(&surface);
+        for (v, p) in surface.mesh.positions().iter().enumerate() {
+            marcher.interface_of[v] = (p.x == LENGTH as f64).then_some(4);
+        }
+        let (points, end) = marcher.march(start(), &Sketch::default());
+        assert_eq!(end, End::Interface(4));
+        assert_eq!(points.len(), 5);
+    }
+}

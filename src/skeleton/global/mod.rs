@@ -39,6 +39,8 @@ mod direction;
 mod identifier_box;
 mod scan;
 mod sketch;
+#[cfg(test)]
+mod test_bars;
 
 use std::ops::ControlFlow;
 

@@ -125,3 +125,47 @@ impl<'a> Scanner<'a> {
         Some(Piece { nodes, extent, barycentre })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_bars::bars;
+    use super::*;
+
+    const ALONG_X: Direction = Direction { axis: 0, is_positive: true };
+
+    fn between(from: [f64; 3], to: [f64; 3]) -> IdentifierBox {
+        IdentifierBox { low: from.into(), high: to.into() }
+    }
+
+    #[test]
+    fn a_piece_has_the_nodes_between_the_planes_also_beyond_the_initial_box() {
+        let surface = bars(&[0.0]);
+        let mut scanner = Scanner::new(&surface);
+        // Only one edge of the bar lies in the initial box.
+        let pieces = scanner.pieces(&between([2.5, -0.1, -0.1], [4.5, 0.1, 0.1]), ALONG_X);
+        assert_eq!(pieces.len(), 1);
+        assert_eq!(pieces[0].nodes.len(), 8);
+        assert_eq!(pieces[0].barycentre, Point3::new(3.5, 0.5, 0.5));
+        assert_eq!(pieces[0].extent, between([3.0, 0.0, 0.0], [4.0, 1.0, 1.0]));
+    }
+
+    #[test]
+    fn what_does_not_hang_together_between_the_planes_is_two_pieces() {
+        let surface = bars(&[0.0, 3.0]);
+        let mut scanner = Scanner::new(&surface);
+        let wide = between([2.5, -1.0, -1.0], [4.5, 5.0, 2.0]);
+        let mut middles: Vec<f64> =
+            scanner.pieces(&wide, ALONG_X).iter().map(|p| p.barycentre.y).collect();
+        middles.sort_by(f64::total_cmp);
+        assert_eq!(middles, [0.5, 3.5]);
+        // Asked again, a scanner gives the same: it starts a collection of its own.
+        assert_eq!(scanner.pieces(&wide, ALONG_X).len(), 2);
+    }
+
+    #[test]
+    fn between_planes_without_nodes_there_is_nothing() {
+        let surface = bars(&[0.0]);
+        let empty = between([2.2, -1.0, -1.0], [2.8, 2.0, 2.0]);
+        assert!(Scanner::new(&surface).pieces(&empty, ALONG_X).is_empty());
+    }
+}

@@ -115,3 +115,58 @@ fn fit(stations: &[Station], weights: &[f64]) -> Option<Axis> {
         radius,
     })
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::mesh::id::HalfEdgeId;
+
+    /// A section of a radius.
+    pub(crate) fn station(centroid: [f64; 3], radius: f64) -> Station {
+        Station {
+            centroid: centroid.into(),
+            direction: Vector3::x_axis(),
+            radius,
+            reach: radius,
+            side: HalfEdgeId(0),
+        }
+    }
+
+    /// Sections half a radius apart on a straight rod along x of radius 2.
+    pub(crate) fn rod(count: usize) -> Vec<Station> {
+        (0..count).map(|i| station([i as f64, 0.0, 0.0], 2.0)).collect()
+    }
+
+    #[test]
+    fn the_axis_of_a_straight_rod_points_away_from_the_asked_end() {
+        let axis = axis_at_start(&rod(12)).expect("an axis");
+        assert!((axis.direction.x - 1.0).abs() < 1e-12);
+        assert_eq!((axis.length, axis.radius), (11.0, 2.0));
+        assert!((axis.distance(&Point3::new(-40.0, 3.0, 4.0)) - 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_swollen_end_hardly_turns_the_axis() {
+        let mut stations = rod(12);
+        stations[0] = station([0.0, 1.5, 0.0], 3.0);
+        stations[1] = station([1.0, 0.8, 0.0], 2.6);
+        let axis = axis_at_start(&stations).expect("an axis");
+        assert!(axis.direction.x > 0.9999, "{:?}", axis.direction);
+    }
+
+    #[test]
+    fn the_axis_of_a_bend_is_that_of_its_nearer_part() {
+        let arc = |i: usize| {
+            let (sin, cos) = (i as f64 / 20.0).sin_cos();
+            station([20.0 * sin, 20.0 * (1.0 - cos), 0.0], 2.0)
+        };
+        let axis = axis_at_start(&(0..30).map(arc).collect::<Vec<_>>()).expect("an axis");
+        assert!(axis.length < 12.0, "{}", axis.length);
+        assert!(axis.direction.x > 0.95);
+    }
+
+    #[test]
+    fn one_section_has_no_axis() {
+        assert!(axis_at_start(&rod(1)).is_none());
+    }
+}

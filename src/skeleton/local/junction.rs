@@ -119,3 +119,66 @@ pub(crate) fn nearest_inside(
         .or_else(|| middle_of_wall(&surface.mesh, &surface.tree, &fallback))
         .unwrap_or(fallback)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::axis::tests::{rod, station};
+    use super::*;
+
+    fn axis(from: [f64; 3], towards: [f64; 3]) -> Axis {
+        let (a, d) = (Point3::from(from), Vector3::from(towards).normalize());
+        let stations: Vec<Station> =
+            (0..15).map(|i| station((a + d * f64::from(i)).coords.into(), 1.0)).collect();
+        axis_at_start(&stations).expect("an axis")
+    }
+
+    #[test]
+    fn axes_meet_where_they_cross() {
+        let axes = [
+            axis([3.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+            axis([0.0, 4.0, 0.0], [0.0, 1.0, 0.0]),
+            axis([0.0, 0.0, 5.0], [0.0, 0.0, 1.0]),
+        ];
+        let meeting = meeting_point(&axes, &Point3::new(0.3, 0.3, 0.3));
+        assert!(meeting.coords.norm() < 1e-3, "{meeting}");
+    }
+
+    #[test]
+    fn along_parallel_axes_the_rough_place_decides() {
+        let axes = [axis([0.0; 3], [1.0, 0.0, 0.0]), axis([0.0, 0.2, 0.0], [-1.0, 0.0, 0.0])];
+        let meeting = meeting_point(&axes, &Point3::new(7.0, 3.0, 0.0));
+        assert!((meeting - Point3::new(7.0, 0.1, 0.0)).norm() < 0.01, "{meeting}");
+    }
+
+    /// Three runs at one hub: a stem along x up to 40, two legs whose axes meet in it.
+    fn fork(meeting: f64) -> (Draft, Vec<(usize, usize)>, Vec<Axis>) {
+        let run = |stations: Vec<Station>| Run { hubs: [0, 0], stations };
+        let leg = |side: f64| {
+            let along = |i: usize| [40.0 + i as f64, side * 0.1 * (40.0 + i as f64 - meeting), 0.0];
+            run((0..20).map(|i| station(along(i), 1.0)).collect())
+        };
+        let mut stem = rod(41);
+        stem.reverse();
+        let mut draft = Draft::default();
+        draft.add_hub(HubKind::Joint);
+        draft.runs = vec![run(stem), leg(1.0), leg(-1.0)];
+        let runs = vec![(0, 0), (1, 0), (2, 0)];
+        let axes = axes_at(&draft, &runs).into_iter().flatten().collect();
+        (draft, runs, axes)
+    }
+
+    #[test]
+    fn legs_meet_in_the_way_of_their_stem() {
+        let (draft, runs, axes) = fork(25.0);
+        let place = within_reach(&draft, &runs, &axes, Point3::new(40.0, 0.0, 0.0));
+        // The faint pull to the rough place is felt at so small an angle.
+        assert!((place - Point3::new(25.0, 0.0, 0.0)).norm() < 1.0, "{place}");
+    }
+
+    #[test]
+    fn axes_that_meet_far_from_every_branch_are_drawn_back() {
+        let (draft, runs, axes) = fork(-300.0);
+        let place = within_reach(&draft, &runs, &axes, Point3::new(40.0, 0.0, 0.0));
+        assert!((place.x - 40.0).abs() < 40.0, "{place}");
+    }
+}
