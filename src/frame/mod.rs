@@ -23,6 +23,7 @@ mod continuous;
 mod depth;
 mod deviation;
 mod hold;
+mod lofts;
 mod measured;
 pub mod moments;
 pub mod normalize;

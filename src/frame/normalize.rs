@@ -44,6 +44,7 @@ pub fn normalize(
         making.drop_unused_nodes();
         settle_nodes(&mut making, surface);
     }
+    making.drop_closed_pieces(&mut findings);
     if params.continuous && continuous::join(&mut making, params) {
         settle_nodes(&mut making, surface);
     }

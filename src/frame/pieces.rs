@@ -221,6 +221,18 @@ impl<'a> Making<'a> {
         findings.len() > before
     }
 
+    /// Leaves out pieces that end where they begin: loops too narrow to be broken into beams.
+    pub(super) fn drop_closed_pieces(&mut self, findings: &mut Vec<Finding>) {
+        for piece in self.pieces.extract_if(.., |p| p.ends[0] == p.ends[1]) {
+            findings.push(Finding::note(
+                FindingKind::NodesMerged,
+                Some(self.nodes[piece.ends[0]].position),
+                "a loop at a node, narrower than a section radius, is no beam; it was left out",
+            ));
+        }
+        self.drop_unused_nodes();
+    }
+
     fn is_shorter_than_its_radius(&self, piece: &Piece) -> bool {
         let [a, b] = self.axis(piece);
         (a - b).norm() < self.radius(piece)

@@ -4,13 +4,11 @@
 //! 1. Beams whose sections and lengths agree are one group: a symmetric part gets equal beams.
 //! 2. Each group is matched to a profile of the wanted kind.
 //! 3. With `max_profiles`, the profiles are reduced over the whole frame at least cost.
-//! 4. Tapered lofts get the same family at stations along the beam.
+//! 4. Tapered lofts get the same family at stations along the beam (`lofts`).
 
-use super::beam_section::BeamSection;
-use super::moments::Moments;
 use super::params::ProfileParams;
-use super::shape::{BeamShape, Loft, ShapeStation};
-use super::{Beam, Frame};
+use super::shape::{BeamShape, Loft};
+use super::{Beam, Frame, lofts};
 use crate::finding::{Finding, FindingKind};
 use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
@@ -18,11 +16,10 @@ use crate::section::matching::{
     MatchError, MatchMode, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
     match_profile, reduce_profiles,
 };
-use crate::section::properties::Contours;
 
 /// Sections and lengths that agree within this part are meant to be equal. The two halves of a
 /// mirrored voxel part agree within half of it, struts that were designed to differ do not.
-const EQUAL: f64 = 0.02;
+pub(super) const EQUAL: f64 = 0.02;
 
 /// Worst error of I₁ or I₂ that goes without a finding.
 const POOR_MATCH: f64 = 0.25;
@@ -52,14 +49,22 @@ pub fn match_profiles(
     if let Some(max) = params.max_profiles {
         reduce(&mut matched, &groups.targets, &groups.lengths, max, params.mode)?;
     }
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); matched.len()];
     for (k, &i) in measured.iter().enumerate() {
         let group = groups.group_of[k];
+        members[group].push(i);
         let beam = &mut frame.beams[i];
         if let Some(own) = &targets[i] {
-            beam.shape = shape(beam, own, &matched[group], params, catalogue)?;
+            let profile = matched[group].profile.clone();
+            beam.shape = BeamShape::constant(Matched::of(profile, own)?);
         }
         if (beam.length - groups.lengths[group]).abs() < SAME_LENGTH * beam.section.mean.radius() {
             beam.cut_length = groups.lengths[group];
+        }
+    }
+    if params.loft != Loft::Constant {
+        for group in &members {
+            lofts::shape(frame, group, params, catalogue)?;
         }
     }
     for i in (0..targets.len()).filter(|&i| targets[i].is_none()) {
@@ -95,86 +100,6 @@ fn reduce(
         *m = Matched::of(profile, &targets[i])?;
     }
     Ok(())
-}
-
-/// The shape of one beam of a group.
-fn shape(
-    beam: &Beam,
-    own: &MatchTarget,
-    group: &Matched,
-    params: &ProfileParams,
-    catalogue: &Catalogue,
-) -> Result<BeamShape, MatchError> {
-    let matched = Matched::of(group.profile.clone(), own)?;
-    let mut shape = BeamShape::constant(matched);
-    let places = match params.loft {
-        Loft::Constant => return Ok(shape),
-        _ if shape.profile.designation.is_some() => return Ok(shape),
-        Loft::Taper => from_end_to_end(&beam.section),
-        Loft::Multi => along(&beam.section),
-    };
-    let choice: ProfileChoice = shape.profile.family().parse().unwrap_or_default();
-    shape.stations = places
-        .into_iter()
-        .map(|(at, moments)| {
-            let there = scaled_target(own, &moments);
-            let sized = match_profile(&there, &choice, params.mode, catalogue)?;
-            let region = sized.profile.region().turned(beam.section.turn_at(at));
-            Ok(ShapeStation { at, region })
-        })
-        .collect::<Result<_, MatchError>>()?;
-    Ok(shape)
-}
-
-/// The target with the area and moments of another place and the contour grown alike.
-fn scaled_target(own: &MatchTarget, there: &Moments) -> MatchTarget {
-    let grown = there.area / own.area;
-    let (i_1, i_2, _) = there.principal();
-    let side = grown.sqrt();
-    let contours =
-        own.contours.as_ref().map(|c| Contours::solid(c.outer.iter().map(|p| p * side).collect()));
-    MatchTarget {
-        area: there.area,
-        i_1,
-        i_2,
-        j: own.j * grown * grown,
-        principal_angle: own.principal_angle,
-        contours,
-    }
-}
-
-/// Largest turn between two outlines of a twisted beam, rad: 15°. The ruled surface between them
-/// is thinner in the middle by a hundredth.
-const LARGEST_TURN: f64 = 0.27;
-
-/// End values, and as many between them as a twist needs.
-fn from_end_to_end(section: &BeamSection) -> Vec<(f64, Moments)> {
-    let parts = (section.twist.abs() / LARGEST_TURN).ceil().max(1.0) as usize;
-    let [start, end] = [0, 1].map(|e| section.ends[e].turned(-section.turn_at(e as f64)));
-    (0..=parts)
-        .map(|k| k as f64 / parts as f64)
-        .map(|at| (at, Moments::between(&start, &end, at)))
-        .collect()
-}
-
-/// End values and up to three means between them.
-fn along(section: &BeamSection) -> Vec<(f64, Moments)> {
-    let inner = section.stations.iter().filter(|s| !s.is_outlier());
-    let inner: Vec<(f64, Moments)> = inner.map(|s| (s.at, s.moments)).collect();
-    let mut places = vec![(0.0, section.ends[0])];
-    for k in 1..4 {
-        let middle = f64::from(k) / 4.0;
-        let near: Vec<&(f64, Moments)> =
-            inner.iter().filter(|(at, _)| (at - middle).abs() <= 0.125).collect();
-        if near.is_empty() {
-            continue;
-        }
-        let share = 1.0 / near.len() as f64;
-        let at = near.iter().map(|n| n.0 * share).sum();
-        places.push((at, Moments::mean(near.iter().map(|n| (share, n.1)))));
-    }
-    places.push((1.0, section.ends[1]));
-    places
 }
 
 /// The shape of a beam without sections of its own (a stub in a joint): that of the beam it goes on

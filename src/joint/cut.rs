@@ -1,5 +1,7 @@
 //! One beam with its two ends cut.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Unit, Vector3};
 
 use super::{LEAST_LEFT, PER_QUARTER};
@@ -48,8 +50,9 @@ pub struct CutBeam {
     pub axis_length: f64,
     /// Length to saw off a bar: from the farthest corner to the farthest, mm.
     pub length: f64,
-    /// Turn of the second cut against the first about the axis, rad, 0 to π: 0 where both lean the
-    /// same way (a parallelogram), π where they lean towards each other (a trapezium).
+    /// Turn of the second cut against the first about the axis, rad, in (−π, π]: 0 where both lean
+    /// the same way (a parallelogram), π where they lean towards each other (a trapezium); positive
+    /// is clockwise as seen along the beam, from either end.
     pub twist: f64,
 }
 
@@ -83,21 +86,23 @@ impl CutBeam {
 }
 
 /// Rise of a cut along the axis for each mm along y and z of the profile.
-fn slopes(beam: &Beam, cut: &EndCut) -> [f64; 2] {
+pub(super) fn slopes(beam: &Beam, cut: &EndCut) -> [f64; 2] {
     let Some(normal) = cut.normal else { return [0.0; 2] };
     let axes = beam.axes.rolled(beam.shape.roll);
     let along = normal.dot(&axes.x);
     [-normal.dot(&axes.y) / along, -normal.dot(&axes.z) / along]
 }
 
-/// Angle between the directions in which two cuts rise.
+/// Turn from the direction in which the first cut rises to that of the second.
 fn twist(start: [f64; 2], end: [f64; 2]) -> f64 {
     if start == [0.0; 2] || end == [0.0; 2] {
         return 0.0;
     }
     let cross = start[0] * end[1] - start[1] * end[0];
     let dot = start[0] * end[0] + start[1] * end[1];
-    cross.abs().atan2(dot)
+    let twist = cross.atan2(dot);
+    // Half a turn either way is the same.
+    if twist < SQUARE_ENOUGH - PI { -twist } else { twist }
 }
 
 fn range(values: &[f64]) -> [f64; 2] {

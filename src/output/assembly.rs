@@ -1,4 +1,7 @@
 //! The frame as a STEP assembly: one named, coloured solid a beam.
+//!
+//! Beams that are one piece (see [`alike`]) share the solid and the properties of the first of them:
+//! its length and mass, all their branches, the worst of their errors.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 
@@ -8,8 +11,9 @@ use super::step::{self, Body, Document, Group, Loft, Part, Property, Station, Va
 use crate::finding::{Finding, FindingKind};
 use crate::frame::shape::{BeamShape, ShapeStation};
 use crate::frame::{Beam, Frame};
-use crate::joint::{Ball, CutBeam, EndCut, Joints};
+use crate::joint::{Alike, Ball, CutBeam, EndCut, Joints, SAME_PIECE, alike};
 use crate::mesh::Surface;
+use crate::section::matching::MatchErrors;
 use crate::section::outline::{Outline, Segment};
 
 /// Colours given to profiles in turn: distinct for the common kinds of colour blindness
@@ -68,19 +72,27 @@ pub fn assembly(
     density: f64,
 ) -> Result<Assembly, step::BodyError> {
     let mut profiles: Vec<String> = Vec::new();
+    let mut models: Vec<Model> = Vec::new();
     let mut parts = Vec::with_capacity(frame.beams.len());
     let mut findings = Vec::new();
-    for (i, (beam, cut)) in frame.beams.iter().zip(&joints.beams).enumerate() {
-        let profile = beam.shape.name();
-        let colour = profiles.iter().position(|p| *p == profile).unwrap_or_else(|| {
-            profiles.push(profile);
-            profiles.len() - 1
-        });
-        let placement = placement(beam, frame);
-        let (body, simpler) = sound_body(beam, cut, &placement)?;
-        findings.extend(simpler.map(|how| simpler_solid(i, frame, beam, how)));
-        parts.push(part(i, beam, cut, body, placement, COLOURS[colour % COLOURS.len()], density)?);
+    for (i, Alike { kind, motion, .. }) in alike(frame, joints).into_iter().enumerate() {
+        let beam = &frame.beams[i];
+        if kind == models.len() {
+            let profile = beam.shape.name();
+            let colour = profiles.iter().position(|p| *p == profile).unwrap_or_else(|| {
+                profiles.push(profile);
+                profiles.len() - 1
+            });
+            let colour = COLOURS[colour % COLOURS.len()];
+            models.push(Model::new(beam, &joints.beams[i], frame, colour, density)?);
+        }
+        let model = &mut models[kind];
+        model.count(beam);
+        findings.extend(model.simpler.map(|how| simpler_solid(i, frame, beam, how)));
+        let name = format!("{} {}", mark(i), beam.shape.name());
+        parts.push((kind, name, placement(beam, frame) * motion));
     }
+    let parts = parts.into_iter().map(|(kind, name, at)| models[kind].placed(name, at)).collect();
     let group = |name: &str, parts| Group { name: name.into(), parts, groups: Vec::new() };
     let mut groups = vec![group("Beams", parts)];
     if !joints.balls.is_empty() {
@@ -90,40 +102,76 @@ pub fn assembly(
     Ok(Assembly { document, beside: Vec::new(), findings })
 }
 
-fn part(
-    index: usize,
-    beam: &Beam,
-    cut: &CutBeam,
-    body: Body,
-    placement: Isometry3<f64>,
+/// A piece that is placed once for each beam that is alike.
+struct Model {
+    product: String,
     colour: [u8; 3],
-    density: f64,
-) -> Result<Part, step::BodyError> {
-    let name = beam.shape.name();
-    let volume = body.volume()?;
-    let mut properties = vec![
-        Property::text("profile", name.clone()),
-        Property::new("length", Value::Length(cut.length)),
-        Property::new("area", Value::Area(beam.shape.properties.area)),
-        Property::new("mass", Value::Mass(volume * density * 1e-9)),
-        Property::text("branch", beam.branch.to_string()),
-    ];
-    if let Some(e) = &beam.shape.errors {
-        let percent = |x: f64| format!("{:+.1} %", 100.0 * x);
-        for (name, error) in
-            [("error of A", e.area), ("error of I1", e.i_1), ("error of I2", e.i_2)]
-        {
-            properties.push(Property::text(name, percent(error)));
+    body: Body,
+    /// How it was built where it could not be as wanted.
+    simpler: Option<&'static str>,
+    /// Facts that all its beams share.
+    properties: Vec<Property>,
+    branches: Vec<String>,
+    /// The worst of the errors of its beams, if they were matched.
+    errors: Option<MatchErrors>,
+}
+
+impl Model {
+    fn new(
+        beam: &Beam,
+        cut: &CutBeam,
+        frame: &Frame,
+        colour: [u8; 3],
+        density: f64,
+    ) -> Result<Self, step::BodyError> {
+        let (body, simpler) = sound_body(beam, cut, &placement(beam, frame))?;
+        let name = beam.shape.name();
+        let mass = body.volume()? * density * 1e-9;
+        Ok(Self {
+            product: format!("{name} L={:.1}", cut.length),
+            colour,
+            body,
+            simpler,
+            properties: vec![
+                Property::text("profile", name),
+                Property::new("length", Value::Length(cut.length)),
+                Property::new("area", Value::Area(beam.shape.properties.area)),
+                Property::new("mass", Value::Mass(mass)),
+            ],
+            branches: Vec::new(),
+            errors: None,
+        })
+    }
+
+    /// Adds what is known of one more beam.
+    fn count(&mut self, beam: &Beam) {
+        self.branches.push(beam.branch.to_string());
+        self.errors = match (self.errors, beam.shape.errors) {
+            (Some(a), Some(b)) => Some(a.worst(&b)),
+            (a, b) => a.or(b),
+        };
+    }
+
+    fn placed(&self, name: String, placement: Isometry3<f64>) -> Part {
+        let mut properties = self.properties.clone();
+        properties.push(Property::text("branch", self.branches.join(" ")));
+        if let Some(e) = &self.errors {
+            let percent = |x: f64| format!("{:+.1} %", 100.0 * x);
+            for (name, error) in
+                [("error of A", e.area), ("error of I1", e.i_1), ("error of I2", e.i_2)]
+            {
+                properties.push(Property::text(name, percent(error)));
+            }
+        }
+        Part {
+            name,
+            product: self.product.clone(),
+            colour: self.colour,
+            placement,
+            body: self.body.clone(),
+            properties,
         }
     }
-    Ok(Part {
-        name: format!("{} {name}", mark(index)),
-        product: format!("{name} L={:.1}", cut.length),
-        colour,
-        placement,
-        body,
-        properties,
-    })
 }
 
 /// The solid of a beam as it is cut; failing that cut square, failing that a round bar of its area,
@@ -137,13 +185,13 @@ fn sound_body(
     if let Ok(body) = wanted.and_then(|b| b.check().map(|_| b)) {
         return Ok((body, None));
     }
-    let square = CutBeam { ends: [EndCut::SQUARE; 2], ..*cut };
+    let square_at = |e: EndCut| EndCut { setback: e.setback, ..EndCut::SQUARE };
+    let square = CutBeam { ends: cut.ends.map(square_at), ..*cut };
     let plain = body(&beam.shape, &square, placement);
     if let Ok(body) = plain.and_then(|b| b.check().map(|_| b)) {
         return Ok((body, Some("with its ends cut square")));
     }
-    let radius = (beam.shape.properties.area / std::f64::consts::PI).sqrt();
-    let round = Body::round_bar(radius, beam.cut_length);
+    let round = body(&BeamShape::unmatched(beam.shape.properties.area), &square, placement)?;
     round.check().map(|_| (round, Some("as a round bar of its area")))
 }
 
@@ -154,14 +202,21 @@ fn simpler_solid(index: usize, frame: &Frame, beam: &Beam, how: &str) -> Finding
     Finding::note(FindingKind::SimplerSolid, Some(nalgebra::center(&a, &b)), text)
 }
 
+/// The balls; those that are nearly equal are made as the first of them is.
 fn balls(frame: &Frame, balls: &[Ball], density: f64) -> Result<Vec<Part>, step::BodyError> {
+    let mut radii: Vec<f64> = Vec::new();
     balls
         .iter()
         .enumerate()
         .map(|(i, ball)| {
-            let body = Body::Sphere { radius: ball.radius };
+            let is_same = |r: &f64| (r - ball.radius).abs() <= SAME_PIECE * r;
+            let radius = radii.iter().copied().find(is_same).unwrap_or_else(|| {
+                radii.push(ball.radius);
+                ball.radius
+            });
+            let body = Body::Sphere { radius };
             let mass = body.volume()? * density * 1e-9;
-            let size = format!("Ball D{:.1}", 2.0 * ball.radius);
+            let size = format!("Ball D{:.1}", 2.0 * radius);
             Ok(Part {
                 name: format!("J{:03} {size}", i + 1),
                 product: size,
@@ -172,7 +227,7 @@ fn balls(frame: &Frame, balls: &[Ball], density: f64) -> Result<Vec<Part>, step:
                 ),
                 body,
                 properties: vec![
-                    Property::new("diameter", Value::Length(2.0 * ball.radius)),
+                    Property::new("diameter", Value::Length(2.0 * radius)),
                     Property::new("mass", Value::Mass(mass)),
                 ],
             })

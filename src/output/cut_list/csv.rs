@@ -30,11 +30,14 @@ const COLUMNS: usize = 17;
 
 /// What the columns mean.
 const LEGEND: [(&str, &str); 9] = [
-    ("mark", "beams cut like this, as in the STEP file"),
+    ("mark", "beams cut like this, as in the STEP file, to a tenth of their radius"),
     ("length_mm", "to saw off a bar, from the farthest corner to the farthest"),
     ("axis_length_mm", "along the axis between the cuts"),
     ("angle_1_deg, angle_2_deg", "of the cuts at both ends; 0 is square"),
-    ("twist_deg", "turn between the cuts about the axis; 0 a parallelogram, 180 a trapezium"),
+    (
+        "twist_deg",
+        "turn between the cuts about the axis; 0 a parallelogram, 180 a trapezium, + clockwise",
+    ),
     ("area_mm2", "of the profile"),
     ("unit_mass_kg", "of one piece; mass_kg of all"),
     ("unit_surface_m2", "to paint on one piece, without the cuts"),

@@ -4,15 +4,9 @@ use serde::Serialize;
 
 use super::CutListParams;
 use crate::frame::{Beam, Frame};
-use crate::joint::{CutBeam, Joints};
+use crate::joint::{Alike, CutBeam, Joints, alike};
 use crate::output::assembly::mark;
 use crate::section::properties::{Contours, signed_area};
-
-/// Lengths that differ by less are one length: a saw is set to a tenth of a millimetre.
-const SAME_LENGTH: f64 = 0.1;
-
-/// Angles that differ by less are one angle, degrees: a saw is set to a tenth of a degree.
-const SAME_ANGLE: f64 = 0.1;
 
 /// Points on a quarter of a curved outline of a tapered beam: its area is right to 0.1 %.
 const PER_QUARTER: usize = 16;
@@ -42,7 +36,8 @@ pub struct Piece {
     pub angle_1_deg: f64,
     /// Cut at the second end.
     pub angle_2_deg: f64,
-    /// Turn of the second cut against the first about the axis; 0 where both lean the same way.
+    /// Turn of the second cut against the first about the axis, −180 to 180; 0 where both lean the
+    /// same way, positive clockwise as seen along the piece.
     pub twist_deg: f64,
     /// Area of the profile, mm².
     pub area_mm2: f64,
@@ -59,16 +54,15 @@ pub struct Piece {
 /// All kinds of pieces, sorted by profile and length, the longest first.
 pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
-    for (i, (beam, cut)) in frame.beams.iter().zip(&joints.beams).enumerate() {
-        let one = piece(i, beam, cut, params);
-        match pieces.iter_mut().find(|p| p.is_cut_like(&one)) {
-            Some(same) => {
-                same.marks.extend(one.marks);
-                same.branches.extend(one.branches);
-                same.quantity += 1;
-            }
-            None => pieces.push(one),
+    for (i, Alike { kind, .. }) in alike(frame, joints).into_iter().enumerate() {
+        let beam = &frame.beams[i];
+        if kind == pieces.len() {
+            pieces.push(piece(beam, &joints.beams[i], params));
         }
+        let piece = &mut pieces[kind];
+        piece.marks.push(mark(i));
+        piece.branches.extend(beam.spans().map(|(_, branch)| branch));
+        piece.quantity += 1;
     }
     pieces.sort_by(|a, b| {
         let angles = |p: &Piece| (p.angle_1_deg, p.angle_2_deg);
@@ -86,14 +80,15 @@ pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> 
     pieces
 }
 
-fn piece(index: usize, beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
+/// A piece that is cut like a beam, before any beam is counted.
+fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
     let shape = &beam.shape;
     let [a, b] = [&cut.ends[0], &cut.ends[1]].map(|e| rounded(e.angle.to_degrees(), 1));
     let volume = mean_area(beam) * cut.axis_length;
     Piece {
         piece: String::new(),
-        marks: vec![mark(index)],
-        quantity: 1,
+        marks: Vec::new(),
+        quantity: 0,
         profile: shape.name(),
         family: shape.profile.family().to_owned(),
         standard: shape.profile.designation.as_ref().map_or(String::new(), |d| d.standard.clone()),
@@ -108,7 +103,7 @@ fn piece(index: usize, beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Pi
         unit_mass_kg: rounded(volume * params.material.density * 1e-9, 6),
         mass_kg: 0.0,
         unit_surface_m2: rounded(shape.profile.outer_perimeter() * cut.axis_length * 1e-6, 6),
-        branches: beam.spans().map(|(_, branch)| branch).collect(),
+        branches: Vec::new(),
     }
 }
 
@@ -129,19 +124,6 @@ fn mean_area(beam: &Beam) -> f64 {
     // Simpson's rule between two stations of a cone: √A is linear.
     let between = |a: f64, b: f64| (a + b + (a * b).sqrt()) / 3.0;
     stations.windows(2).map(|w| (w[1].0 - w[0].0) * between(w[0].1, w[1].1)).sum()
-}
-
-impl Piece {
-    /// Whether one saw setting cuts both.
-    fn is_cut_like(&self, other: &Self) -> bool {
-        let same = |a: f64, b: f64, least: f64| (a - b).abs() < least;
-        self.profile == other.profile
-            && same(self.area_mm2, other.area_mm2, 1e-3 * self.area_mm2)
-            && same(self.length_mm, other.length_mm, SAME_LENGTH)
-            && same(self.angle_1_deg, other.angle_1_deg, SAME_ANGLE)
-            && same(self.angle_2_deg, other.angle_2_deg, SAME_ANGLE)
-            && same(self.twist_deg, other.twist_deg, SAME_ANGLE)
-    }
 }
 
 fn rounded(x: f64, digits: i32) -> f64 {

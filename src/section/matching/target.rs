@@ -118,6 +118,17 @@ impl MatchErrors {
         }
     }
 
+    /// Of each property the error that is larger in size.
+    pub fn worst(&self, other: &Self) -> Self {
+        let worse = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
+        Self {
+            area: worse(self.area, other.area),
+            i_1: worse(self.i_1, other.i_1),
+            i_2: worse(self.i_2, other.i_2),
+            j: worse(self.j, other.j),
+        }
+    }
+
     /// √(ε_I1² + ε_I2²).
     pub fn stiffness(&self) -> f64 {
         self.i_1.hypot(self.i_2)
