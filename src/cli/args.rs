@@ -261,7 +261,7 @@ pub(crate) struct FrameArgs {
     #[arg(long, value_name = "KIND", default_value = "none")]
     pub(crate) joints: JointArg,
 
-    /// Most different profiles over the whole frame
+    /// Most different profiles over the whole frame, of all that --profile allows
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) max_profiles: Option<u32>,
 

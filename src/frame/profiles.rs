@@ -13,8 +13,8 @@ use crate::finding::{Finding, FindingKind};
 use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
 use crate::section::matching::{
-    MatchError, MatchMode, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
-    match_profile, reduce_profiles,
+    Equalized, MatchError, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
+    fewest_profiles, match_profile,
 };
 
 /// Sections and lengths that agree within this part are meant to be equal. The two halves of a
@@ -47,7 +47,7 @@ pub fn match_profiles(
         .map(|t| match_profile(t, &params.choice, params.mode, catalogue))
         .collect::<Result<_, _>>()?;
     if let Some(max) = params.max_profiles {
-        reduce(&mut matched, &groups.targets, &groups.lengths, max, params.mode)?;
+        reduce(&mut matched, &groups, max, params, catalogue)?;
     }
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); matched.len()];
     for (k, &i) in measured.iter().enumerate() {
@@ -81,23 +81,36 @@ pub fn match_profiles(
 /// what a saw can do.
 const SAME_LENGTH: f64 = 0.1;
 
+/// Matches the groups anew to at most `max` profiles, unless there are no more already.
 fn reduce(
     matched: &mut [Matched],
-    targets: &[MatchTarget],
-    lengths: &[f64],
+    groups: &Equalized,
     max: usize,
-    mode: MatchMode,
+    params: &ProfileParams,
+    catalogue: &Catalogue,
 ) -> Result<(), MatchError> {
-    let requirements: Vec<Requirement> = targets
+    let mut distinct: Vec<Profile> = Vec::new();
+    for m in matched.iter() {
+        if !distinct.contains(&m.profile) {
+            distinct.push(m.profile.clone());
+        }
+    }
+    if distinct.len() <= max {
+        return Ok(());
+    }
+    let mut requirements: Vec<Requirement> = groups
+        .targets
         .iter()
-        .zip(lengths)
-        .map(|(target, &length)| Requirement { target: target.clone(), length })
+        .map(|target| Requirement { target: target.clone(), length: 0.0 })
         .collect();
-    let pool: Vec<Profile> = matched.iter().map(|m| m.profile.clone()).collect();
-    let reduction = reduce_profiles(&requirements, &pool, max, mode)?;
+    for &group in &groups.group_of {
+        requirements[group].length += groups.lengths[group];
+    }
+    let ProfileParams { choice, mode, .. } = params;
+    let found = fewest_profiles(&requirements, &distinct, max, choice, *mode, catalogue)?;
     for (i, m) in matched.iter_mut().enumerate() {
-        let profile = reduction.profiles[reduction.profile_of[i]].clone();
-        *m = Matched::of(profile, &targets[i])?;
+        let profile = found.profiles[found.profile_of[i]].clone();
+        *m = Matched::of(profile, &groups.targets[i])?;
     }
     Ok(())
 }

@@ -18,7 +18,7 @@
 //! a saw makes them, and the solids stay exact. On a round through member a trimmed end enters the
 //! member just so far that its edges touch: the gap a saddle would close is inside the weld.
 //!
-//! Beams that are cut alike are found by [`alike`], for the cut list and for shared products.
+//! Beams that are cut alike are found by [`alike()`], for the cut list and for shared products.
 //!
 //! A joint that cannot be made (too oblique, or longer than the beam) leaves its ends as they are
 //! with a finding.

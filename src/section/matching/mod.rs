@@ -26,6 +26,7 @@
 mod auto;
 mod choice;
 mod equal;
+mod fewest;
 mod fit;
 mod nearest;
 mod reduce;
@@ -39,6 +40,7 @@ use super::profile::Profile;
 use super::properties::SectionProperties;
 pub use choice::{MatchMode, ProfileChoice, UnknownChoice};
 pub use equal::{Equalized, equalize};
+pub use fewest::fewest_profiles;
 pub use reduce::{Reduction, Requirement, reduce_profiles};
 pub use target::{MatchErrors, MatchTarget};
 
