@@ -38,6 +38,8 @@ pub enum FindingKind {
     Joint,
     /// A shape that is no sound solid and was built as a simpler one.
     SimplerSolid,
+    /// A piece that no stock bar is long enough for.
+    Stock,
 }
 
 impl FindingKind {
@@ -60,6 +62,7 @@ impl FindingKind {
             Self::NonDesign => "non-design",
             Self::Joint => "joint",
             Self::SimplerSolid => "simpler-solid",
+            Self::Stock => "stock",
         }
     }
 }

@@ -125,6 +125,8 @@ fn a_tapered_strut_has_the_areas_of_both_ends_and_is_built_as_a_cone() {
         }
         let stations = &beam.shape.stations;
         assert_eq!(stations.len(), 2, "a cone has two sections");
+        let name = beam.shape.name();
+        assert!(name.starts_with("Cone ") && name.contains(" to ") && name.is_ascii(), "{name}");
         assert!(stations.iter().all(|s| matches!(s.region.outer, Outline::Circle { .. })));
     }
 }

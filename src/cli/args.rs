@@ -7,7 +7,7 @@ use beamwright::frame::{FrameParams, Loft, ProfileParams};
 use beamwright::joint::JointKind;
 use beamwright::mesh::LabelParams;
 use beamwright::mesh::label::DEFAULT_NAMES;
-use beamwright::output::cut_list::{CutListParams, Stock};
+use beamwright::output::cut_list::{CutListParams, LONGEST_BAR, Stock};
 use beamwright::output::material::Material;
 use beamwright::pipeline::Settings;
 use beamwright::section::{MatchMode, ProfileChoice};
@@ -16,6 +16,7 @@ use beamwright_formats::{ReadOptions, Unit};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::evaluate::EvaluateArgs;
+use super::exit::Failure;
 use super::profiles::ProfilesArgs;
 
 /// From a topology-optimized mesh to beams one can buy, cut and weld.
@@ -262,7 +263,8 @@ pub(crate) struct FrameArgs {
     pub(crate) joints: JointArg,
 
     /// Most different profiles over the whole frame, of all that --profile allows
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+        value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) max_profiles: Option<u32>,
 
     /// Your own profiles (.csv, .json), searched besides the built-in ones; may be repeated
@@ -349,19 +351,21 @@ pub(crate) struct OutputArgs {
     pub(crate) material: String,
 
     /// Elastic modulus for the CalculiX model, MPa (steel: 210000, aluminium: 70000)
-    #[arg(long, value_name = "MPA", default_value_t = Material::default().elastic_modulus)]
+    #[arg(long, value_name = "MPA", allow_negative_numbers = true,
+        default_value_t = Material::default().elastic_modulus)]
     pub(crate) elastic_modulus: f64,
 
     /// Poisson's ratio for the CalculiX model
-    #[arg(long, value_name = "RATIO", default_value_t = Material::default().poisson)]
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true,
+        default_value_t = Material::default().poisson)]
     pub(crate) poisson: f64,
 
     /// Lay the pieces into stock bars of this length, mm
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) stock_length: Option<f64>,
 
     /// Width of a saw cut between pieces of a stock bar, mm
-    #[arg(long, value_name = "MM", default_value_t = 2.0)]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, default_value_t = 2.0)]
     pub(crate) kerf: f64,
 
     /// Leave the non-design parts out of the STEP file
@@ -369,7 +373,8 @@ pub(crate) struct OutputArgs {
     pub(crate) no_non_design: bool,
 
     /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
-    #[arg(long, value_name = "KG/M3", default_value_t = Material::default().density)]
+    #[arg(long, value_name = "KG/M3", allow_negative_numbers = true,
+        default_value_t = Material::default().density)]
     pub(crate) density: f64,
 }
 
@@ -381,6 +386,14 @@ impl OutputArgs {
             elastic_modulus: self.elastic_modulus,
             poisson: self.poisson,
         }
+    }
+
+    /// Whether every number is one that can be.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        self.material().check().map_err(Failure::usage)?;
+        // Without bars a saw cut still has to be a width.
+        let length_mm = self.stock_length.unwrap_or(LONGEST_BAR);
+        Stock { length_mm, kerf_mm: self.kerf }.check().map_err(Failure::usage)
     }
 
     pub(crate) fn cut_list_params(&self) -> CutListParams {

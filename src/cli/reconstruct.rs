@@ -25,6 +25,7 @@ pub(crate) fn run(
     global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
+    args.output.check()?;
     match &args.output.out_dir {
         Some(folder) => super::batch::run(args, folder, global, progress),
         None => run_one(args, global, progress),
@@ -37,7 +38,6 @@ pub(crate) fn run_one(
     global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
-    args.output.cut_list_params().stock.map_or(Ok(()), |s| s.check()).map_err(Failure::usage)?;
     let targets = Targets::new(args)?;
     let mut settings = args.input.settings();
     settings.skeleton = (&args.march).into();
@@ -56,11 +56,16 @@ pub(crate) fn run_one(
     }
     let Assembly { document, beside, findings } = built;
     outcome.findings.extend(findings);
+    let list = CutList::new(&outcome.frame, &outcome.joints, &args.output.cut_list_params());
+    outcome.findings.extend(list.findings());
     let summary = Summary::new(name, &outcome.surface, &outcome.findings)
         .with_skeleton(&outcome.surface, &outcome.skeleton)
         .with_frame(&outcome.surface, &outcome.frame);
     if !(args.result.strict && summary.has_breach()) {
-        let files = written(targets, args, &outcome, &summary, &document, &beside)?;
+        if !beside.is_empty() {
+            targets.claim_beside(args)?;
+        }
+        let files = written(targets, args, &outcome, &summary, &list, &document, &beside)?;
         targets::commit(files, progress)?;
     }
     progress.finish();
@@ -74,8 +79,10 @@ struct Targets {
     cut_list_format: CutListFormat,
     skeleton: PathBuf,
     skeleton_format: skeleton_file::Format,
-    /// Non-design parts that are too much for the STEP file.
+    /// Non-design parts that are too much for the STEP file; claimed only where there are any.
     beside: PathBuf,
+    /// All others.
+    claimed: Vec<PathBuf>,
     sections: Option<(PathBuf, SectionFormat)>,
     exports: Vec<Export>,
     looks: Looks,
@@ -102,7 +109,7 @@ impl Targets {
             args.output.export.iter().map(|path| Export::new(path)).collect::<Result<_, _>>()?;
         let looks = Looks::new(args)?;
         let non_design = beside("non-design.ply");
-        let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone(), non_design.clone()];
+        let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone()];
         all.extend(sections.iter().map(|(path, _)| path.clone()));
         all.extend(exports.iter().flat_map(Export::targets));
         all.extend(looks.targets());
@@ -114,10 +121,19 @@ impl Targets {
             cut_list,
             skeleton,
             beside: non_design,
+            claimed: all,
             sections,
             exports,
             looks,
         })
+    }
+}
+
+impl Targets {
+    /// Checks the mesh file of non-design parts against what else is read and written.
+    fn claim_beside(&self, args: &ReconstructArgs) -> Result<(), Failure> {
+        let all = self.claimed.iter().chain([&self.beside]);
+        targets::check(all.map(PathBuf::as_path), &args.input, &args.frame.catalogue)
     }
 }
 
@@ -153,10 +169,10 @@ fn written(
     args: &ReconstructArgs,
     outcome: &Outcome,
     summary: &Summary,
+    list: &CutList,
     document: &step::Document,
     beside: &[PartMesh],
 ) -> Result<OutputFiles, Failure> {
-    let list = CutList::new(&outcome.frame, &outcome.joints, &args.output.cut_list_params());
     let mut files = OutputFiles::default();
     files
         .add(&targets.step, |mut out| {

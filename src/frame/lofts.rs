@@ -65,7 +65,7 @@ pub(super) fn shape(
         }
         let station = |(at, profile): &(f64, Profile)| {
             let region = profile.region().turned(beam.section.turn_at(*at));
-            ShapeStation { at: *at, region }
+            ShapeStation { at: *at, profile: profile.clone(), region }
         };
         beam.shape.stations = sizes.iter().map(station).collect();
     }

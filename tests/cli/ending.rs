@@ -131,3 +131,54 @@ fn an_interrupted_run_ends_with_130_and_writes_nothing() {
     let kept = std::fs::read_to_string(folder.path().join("out.step")).expect("a file");
     assert_eq!(kept, "kept");
 }
+
+#[test]
+fn numbers_that_cannot_be_end_with_2_before_anything_is_read() {
+    let folder = folder_with_bar();
+    let refused = |option: &str, value: &str, says: &str| {
+        let words = ["reconstruct", "missing.obj", "-o", "a.step", "--stock-length", "6000"];
+        let ran = run(folder.path(), &[&words[..], &[option, value]].concat());
+        assert_eq!(ran.code, Some(2), "{option} {value}: {ran:?}");
+        assert!(ran.stderr.contains(option) && ran.stderr.contains(says), "{ran:?}");
+        assert!(ran.stdout.is_empty());
+    };
+    for value in ["0", "-7850", "nan", "inf", "1e9"] {
+        refused("--density", value, "must lie in (0, 30000] kg/m³");
+        refused("--elastic-modulus", value, "must lie in (0, 2e6] MPa");
+    }
+    for value in ["-0.1", "0.5", "0.7", "nan"] {
+        refused("--poisson", value, "must lie in [0, 0.5)");
+    }
+    for value in ["0", "-6000", "nan", "inf"] {
+        refused("--stock-length", value, "must be a length above 0");
+    }
+    for value in ["-1", "nan", "6000", "1e9"] {
+        refused("--kerf", value, "must be at least 0 and shorter than the bar");
+    }
+    for value in ["0", "-1", "2.5", "nan"] {
+        refused("--max-profiles", value, "invalid value");
+    }
+    refused("--density", "steel", "invalid value");
+}
+
+#[test]
+fn a_piece_longer_than_a_stock_bar_is_told_and_not_nested() {
+    let folder = folder_with_bar();
+    let words = ["reconstruct", "bar.obj", "-o", "a.step", "--stock-length", "20", "--json"];
+    let printed = run(folder.path(), &words).succeeded();
+    let summary: serde_json::Value = serde_json::from_str(&printed).expect("JSON");
+    let findings = summary["findings"].as_array().expect("findings");
+    let stock = findings.iter().find(|f| f["kind"] == "stock").expect("a finding");
+    let text = stock["text"].as_str().expect("a text");
+    assert!(text.starts_with("P01 (1 of Round ") && text.contains("it is in no bar"), "{text}");
+    let list = std::fs::read_to_string(folder.path().join("a.csv")).expect("a cut list");
+    assert!(list.contains("P01,\"longer than a bar, not nested"), "{list}");
+}
+
+#[test]
+fn the_mesh_file_beside_is_claimed_only_where_it_is_written() {
+    let folder = folder_with_bar();
+    let words = ["reconstruct", "bar.obj", "-o", "a.step", "--skeleton", "a.non-design.ply"];
+    run(folder.path(), &words).succeeded();
+    assert!(names(folder.path()).contains(&"a.non-design.ply".to_owned()));
+}

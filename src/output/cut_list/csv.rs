@@ -115,7 +115,10 @@ fn bars(list: &CutList, table: &mut Table<'_>) -> io::Result<()> {
     }
     table.row(["waste".to_owned(), format!("{:.1} %", 100.0 * nesting.waste)])?;
     for piece in &nesting.too_long {
-        table.row([piece.as_str(), "longer than a bar: order it longer, or splice it"])?;
+        table.row([
+            piece.as_str(),
+            "longer than a bar, not nested: order it longer, or splice it",
+        ])?;
     }
     Ok(())
 }

@@ -17,9 +17,10 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-pub use nesting::{Bar, Nesting, Stock, StockError};
+pub use nesting::{Bar, LONGEST_BAR, Nesting, Stock, StockError};
 pub use piece::Piece;
 
+use crate::finding::{Finding, FindingKind};
 use crate::frame::Frame;
 use crate::joint::Joints;
 use crate::output::material::Material;
@@ -100,6 +101,21 @@ impl CutList {
             mass_kg: sum(|t| t.mass_kg),
             surface_m2: sum(|t| t.surface_m2),
         }
+    }
+
+    /// What the user should know: pieces that are longer than a stock bar.
+    pub fn findings(&self) -> Vec<Finding> {
+        let Some(nesting) = &self.nesting else { return Vec::new() };
+        let is_too_long = |p: &&Piece| nesting.too_long.contains(&p.piece);
+        let text = |p: &Piece| {
+            format!(
+                "{} ({} of {}) is {:.1} mm long, a stock bar {} mm; it is in no bar: order it \
+                 longer, or splice it",
+                p.piece, p.quantity, p.profile, p.length_mm, nesting.stock.length_mm
+            )
+        };
+        let pieces = self.pieces.iter().filter(is_too_long);
+        pieces.map(|p| Finding::note(FindingKind::Stock, None, text(p))).collect()
     }
 
     /// Writes the list as CSV: pieces, totals, bars and a legend, with empty lines between.

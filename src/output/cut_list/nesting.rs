@@ -32,6 +32,9 @@ pub struct StockError {
     value: f64,
 }
 
+/// Longest bar, mm: ten times the longest rails that are rolled.
+pub const LONGEST_BAR: f64 = 1e6;
+
 impl Stock {
     /// Checks the lengths.
     ///
@@ -39,8 +42,8 @@ impl Stock {
     /// A length that is no length, or a kerf as long as the bar.
     pub fn check(&self) -> Result<(), StockError> {
         let (length, kerf) = (self.length_mm, self.kerf_mm);
-        if !(length > 0.0 && length.is_finite()) {
-            let wanted = "a length above 0";
+        if !(length > 0.0 && length <= LONGEST_BAR) {
+            let wanted = "a length above 0 and no more than 1,000,000 mm";
             return Err(StockError { name: "--stock-length", wanted, value: length });
         }
         if !(kerf >= 0.0 && kerf < length) {
@@ -71,7 +74,8 @@ pub struct Nesting {
     pub stock: Stock,
     /// The bars, by profile.
     pub bars: Vec<Bar>,
-    /// Marks of pieces longer than a bar: to be ordered longer, or spliced.
+    /// Marks of pieces longer than a bar, once for each; they are not nested: to be ordered longer,
+    /// or spliced.
     pub too_long: Vec<String>,
     /// Part of the bars that is no piece: offcuts and saw cuts.
     pub waste: f64,
@@ -174,7 +178,10 @@ mod tests {
     #[test]
     fn a_stock_without_length_is_refused() {
         let message = Stock { length_mm: 0.0, kerf_mm: 2.0 }.check().unwrap_err().to_string();
-        assert_eq!(message, "--stock-length must be a length above 0, but is 0");
+        assert_eq!(
+            message,
+            "--stock-length must be a length above 0 and no more than 1,000,000 mm, but is 0"
+        );
         assert!(Stock { length_mm: f64::NAN, kerf_mm: 2.0 }.check().is_err());
         assert!(Stock { length_mm: 10.0, kerf_mm: 10.0 }.check().is_err());
     }
