@@ -58,8 +58,12 @@ pub(super) fn bodies_of(surface: &Surface, set: SetId) -> Option<Vec<Closed>> {
     for lid in lids(&loops) {
         close_over(surface, &lid, &mut points, &mut triangles);
     }
-    let twins = twins(&triangles)?;
-    Some(separate(&points, &triangles, &twins))
+    of_triangles(&points, &triangles)
+}
+
+/// The closed bodies that triangles bound; `None` if a side of one has no partner.
+pub(super) fn of_triangles(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Option<Vec<Closed>> {
+    Some(separate(points, triangles, &twins(triangles)?))
 }
 
 /// Which loops are closed by one lid: a section, with the rims of holes that open in it.
@@ -203,4 +207,45 @@ fn body(
     }
     closed.triangles = corner_point.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
     closed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+    fn corners(at: [f64; 3], size: f64) -> [Point3<f64>; 4] {
+        let at = Point3::from(at);
+        [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()].map(|v| at + v * size)
+    }
+
+    #[test]
+    fn a_surface_with_an_opening_is_no_body() {
+        let points = corners([0.0; 3], 3.0);
+        assert!(of_triangles(&points, &TETRAHEDRON[..3]).is_none());
+        let mut turned = TETRAHEDRON;
+        turned[3].reverse();
+        assert!(of_triangles(&points, &turned).is_none());
+    }
+
+    #[test]
+    fn bodies_that_touch_in_a_point_are_two_with_a_point_each() {
+        let points: Vec<Point3<f64>> =
+            corners([0.0; 3], 3.0).into_iter().chain(corners([3.0, 0.0, 0.0], 2.0)).collect();
+        // The second begins where the first has its corner 1.
+        let second = TETRAHEDRON.map(|t| t.map(|v| if v == 0 { 1 } else { v + 4 }));
+        let bodies = of_triangles(&points, &[TETRAHEDRON, second].concat()).expect("closed");
+        let volumes: Vec<f64> = bodies.iter().map(Closed::volume).collect();
+        assert_eq!(bodies.len(), 2);
+        assert!((volumes[0] - 27.0 / 6.0).abs() < 1e-12 && (volumes[1] - 8.0 / 6.0).abs() < 1e-12);
+        assert!(bodies.iter().all(|b| b.points.len() == 4));
+    }
+
+    #[test]
+    fn a_surface_inside_out_has_a_negative_volume() {
+        let inside_out = TETRAHEDRON.map(|[a, b, c]| [a, c, b]);
+        let bodies = of_triangles(&corners([5.0, 1.0, 2.0], 3.0), &inside_out).expect("closed");
+        assert!((bodies[0].volume() + 27.0 / 6.0).abs() < 1e-12);
+    }
 }

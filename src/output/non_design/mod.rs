@@ -10,6 +10,11 @@
 //! what would bring more than [`FACE_BUDGET`] faces into the STEP file, goes into a mesh file
 //! beside it, with a finding.
 //!
+//! A ring of strips is a cylinder where the mesh says so: at least twelve corners on each of two
+//! circles, all within 1e-4 radii of them, however coarse. Such a hole is larger than its polygon,
+//! at twelve corners by 5 % in area. With fewer corners, or corners off the circle, the strips
+//! stay faces of their own: the hole may be meant as a polygon.
+//!
 //! # What does not hold
 //! Curved faces other than full cylinders stay as many flat ones as the mesh has. A set that is
 //! only the wall of a hole encloses no material and is left out, with a finding.
@@ -139,4 +144,148 @@ fn no_material(surface: &Surface, set: SetId) -> Finding {
     );
     let place = surface.interfaces.iter().find(|i| i.set == set).map(|i| i.centroid);
     Finding::note(FindingKind::NonDesign, place, text)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_4, PI, TAU};
+
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::output::step::{Facet, Loop};
+
+    const SIDE: f64 = 40.0;
+    const HEIGHT: f64 = 12.0;
+    const RADIUS: f64 = 9.0;
+
+    type Mesh = (Vec<Point3<f64>>, Vec<[u32; 3]>);
+
+    /// A square block with a hole of `sides` sides, a multiple of four, from top to bottom.
+    ///
+    /// * `off`: distance of corner i of the hole from its axis, in radii.
+    fn block(sides: usize, off: impl Fn(usize) -> f64) -> Mesh {
+        let square = |i: usize| {
+            let (quarter, part) = (i / (sides / 4), (i % (sides / 4)) as f64 / (sides / 4) as f64);
+            let corner = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+            let (a, b) = (corner[quarter], corner[(quarter + 1) % 4]);
+            [0, 1].map(|k| 0.5 * SIDE * (a[k] + part * (b[k] - a[k])))
+        };
+        let hole = |i: usize| {
+            let (sin, cos) = (FRAC_PI_4 + TAU * i as f64 / sides as f64).sin_cos();
+            [cos, sin].map(|x| x * RADIUS * off(i))
+        };
+        let mut points = Vec::new();
+        for z in [0.0, HEIGHT] {
+            points.extend((0..sides).map(square).map(|[x, y]| Point3::new(x, y, z)));
+            points.extend((0..sides).map(hole).map(|[x, y]| Point3::new(x, y, z)));
+        }
+        // Rings: square and hole below, square and hole above.
+        let at = |ring: usize, i: usize| (ring * sides + i % sides) as u32;
+        let mut triangles = Vec::new();
+        for i in 0..sides {
+            for (from, to) in [(0, 2), (2, 3), (3, 1), (1, 0)] {
+                let [a, b, c, d] = [at(from, i), at(from, i + 1), at(to, i + 1), at(to, i)];
+                triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        (points, triangles)
+    }
+
+    /// Every triangle divided into four.
+    fn divided((mut points, triangles): Mesh) -> Mesh {
+        let mut middles = std::collections::BTreeMap::new();
+        let mut middle = |a: u32, b: u32| {
+            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                points.push(nalgebra::center(&points[a as usize], &points[b as usize]));
+                points.len() as u32 - 1
+            })
+        };
+        let quarters = |&[a, b, c]: &[u32; 3]| {
+            let [p, q, r] = [middle(a, b), middle(b, c), middle(c, a)];
+            [[a, p, r], [p, b, q], [r, q, c], [p, q, r]]
+        };
+        let all = triangles.iter().flat_map(quarters).collect();
+        (points, all)
+    }
+
+    fn facets((points, triangles): Mesh) -> Facets {
+        let bodies = closed::of_triangles(&points, &triangles).expect("closed");
+        solid(&bodies[0]).expect("a solid")
+    }
+
+    /// Flat faces, those of them with a hole, and bores.
+    fn counted(facets: &Facets) -> [usize; 3] {
+        let count = |is: &dyn Fn(&Facet) -> bool| facets.faces.iter().filter(|f| is(f)).count();
+        [
+            count(&|f| matches!(f, Facet::Flat { .. })),
+            count(&|f| matches!(f, Facet::Flat { inner, .. } if inner.len() == 1)),
+            count(&|f| matches!(f, Facet::Round { bore: true, .. })),
+        ]
+    }
+
+    fn has_volume(facets: &Facets, area_of_hole: f64) {
+        let exact = (SIDE * SIDE - area_of_hole) * HEIGHT;
+        let volume = Body::Facets(facets.clone()).check().expect("a closed solid");
+        assert!((volume / exact - 1.0).abs() < 1e-9, "{volume} mm³ for {exact} mm³");
+    }
+
+    #[test]
+    fn a_bolt_hole_becomes_a_cylinder_and_the_rest_six_planes() {
+        for mesh in [block(24, |_| 1.0), divided(block(24, |_| 1.0)), block(120, |_| 1.0)] {
+            let facets = facets(mesh);
+            assert_eq!(counted(&facets), [6, 2, 1]);
+            assert!((facets.circles[0].radius - RADIUS).abs() < 1e-9 * RADIUS);
+            assert_eq!(facets.corners.len(), 8);
+            has_volume(&facets, PI * RADIUS * RADIUS);
+        }
+    }
+
+    #[test]
+    fn a_hole_of_twelve_sides_on_a_circle_is_meant_round() {
+        let facets = facets(block(12, |_| 1.0));
+        assert_eq!(counted(&facets), [6, 2, 1]);
+        has_volume(&facets, PI * RADIUS * RADIUS);
+    }
+
+    #[test]
+    fn a_hole_of_eight_sides_stays_one() {
+        let facets = facets(block(8, |_| 1.0));
+        assert_eq!(counted(&facets), [14, 2, 0]);
+        has_volume(&facets, 0.5 * 8.0 * RADIUS * RADIUS * (TAU / 8.0).sin());
+    }
+
+    #[test]
+    fn a_hole_whose_corners_are_off_the_circle_stays_faceted() {
+        let off = |i: usize| if i.is_multiple_of(2) { 1.0 } else { 1.001 };
+        let facets = facets(block(24, off));
+        assert_eq!(counted(&facets), [30, 2, 0]);
+        has_volume(&facets, 0.5 * 24.0 * RADIUS * RADIUS * 1.001 * (TAU / 24.0).sin());
+        // In single precision they are on it.
+        let single = block(24, |i| f64::from((1.0 + 1e-7 * (i as f64).sin()) as f32));
+        assert_eq!(counted(&self::facets(single))[2], 1);
+    }
+
+    #[test]
+    fn a_face_with_a_hole_has_one_outside_and_one_inside() {
+        let facets = facets(block(24, |_| 1.0));
+        let with_hole = facets.faces.iter().find_map(|f| match f {
+            Facet::Flat { outer, inner, .. } if !inner.is_empty() => Some((outer, inner)),
+            _ => None,
+        });
+        let (outer, inner) = with_hole.expect("a face with a hole");
+        assert!(matches!(outer, Loop::Corners(c) if c.len() == 4));
+        assert!(matches!(inner[..], [Loop::Circle(_)]));
+    }
+
+    #[test]
+    fn the_budget_goes_to_parts_of_few_faces_first() {
+        let of_faces = |n: usize| {
+            let mut facets = facets(block(8, |_| 1.0));
+            facets.faces = facets.faces.iter().cycle().take(n).cloned().collect();
+            Some(facets)
+        };
+        let solids = [of_faces(FACE_BUDGET - 10), of_faces(14), None, of_faces(7)];
+        assert_eq!(within_budget(&solids), [false, true, true, true]);
+    }
 }
