@@ -204,6 +204,6 @@ fn written(
             .add(&mut files, outcome, document, &args.output.material())
             .map_err(Failure::input)?;
     }
-    targets.looks.add(&mut files, args, outcome, summary, document, &list)?;
+    targets.looks.add(&mut files, args, outcome, summary, document, list)?;
     Ok(files)
 }
