@@ -262,3 +262,21 @@ fn two_runs_print_the_same_bytes() {
     let words = ["evaluate", "bar.obj", "own.json", "--json"];
     assert_eq!(run(folder.path(), &words).succeeded(), run(folder.path(), &words).succeeded());
 }
+
+/// The same definitions, written a second time in another language by other hands, give these.
+#[test]
+fn figures_agree_with_those_of_an_independent_evaluator() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let words = ["evaluate", "samples/quadpod.obj", "tests/data/quadpod_axes.obj", "--json"];
+    let report: Value = serde_json::from_str(&run(root, &words).succeeded()).expect("JSON");
+    for (pointer, expected) in [
+        ("/skeletons/0/raw/e_center", 0.037_603_378_483_955_7),
+        ("/skeletons/0/raw/e_true", 0.017_486_456_951_932_0),
+        ("/skeletons/0/raw/hu_degree", 0.922_210_808_309_130_8),
+        ("/skeletons/0/raw/offset/mean", 0.129_482_059_147_461_1),
+        ("/skeletons/0/resampled/e_center", 0.041_395_125_095_669_3),
+    ] {
+        let found = number(&report, pointer);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{pointer}: {found} for {expected}");
+    }
+}

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use nalgebra::{Point3, Vector2};
 
+use crate::mesh::Surface;
 use crate::mesh::contour::{Contour, Plane, entry, follow};
 use crate::mesh::id::{FaceId, HalfEdgeId};
-use crate::mesh::{HalfEdgeMesh, Surface};
 
 /// What lies outside of the cube by less than this part of its size lies in it. A straight round rod
 /// just touches the cube that its own interface section gives.
@@ -93,7 +93,7 @@ impl<'a> Cutter<'a> {
                 self.cut.places.push(Vector2::new(d.dot(&u), d.dot(&v)));
                 let ends = [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v));
                 self.cut.near.push(in_cube(x) || ends.iter().any(in_cube));
-                self.cut.rank.push(rank(mesh, h));
+                self.cut.rank.push(rank(self.surface, h));
             }
             self.cut.curves.push(first..self.cut.places.len());
         });
@@ -101,9 +101,9 @@ impl<'a> Cutter<'a> {
     }
 }
 
-/// Place of a crossed edge when the triangles are gone through in order and in each of them the
-/// side that comes up through the plane is taken before the one that goes down.
-fn rank(mesh: &HalfEdgeMesh, down: HalfEdgeId) -> u64 {
-    let up = mesh.twin(down);
-    (2 * u64::from(up.face().0)).min(2 * u64::from(down.face().0) + 1)
+/// Place of a crossed edge when the triangles are gone through as the file lists them and in each
+/// of them the side that comes up through the plane is taken before the one that goes down.
+fn rank(surface: &Surface, down: HalfEdgeId) -> u64 {
+    let listed = |h: HalfEdgeId| u64::from(surface.listed[h.face().index()]);
+    (2 * listed(surface.mesh.twin(down))).min(2 * listed(down) + 1)
 }

@@ -30,13 +30,10 @@ const MOST_COMPARED: usize = 4096;
 /// there are more, as on a ball, coordinates decide.
 const MOST_STARTS: usize = 96;
 
-/// Numbers triangles, their corners and the points anew, given the shell of each triangle; the
-/// `marks` of the triangles move along.
-pub(super) fn renumbered(
-    mesh: &HalfEdgeMesh,
-    shell_of_face: &[u32],
-    marks: &[bool],
-) -> (HalfEdgeMesh, Vec<bool>) {
+/// Numbers triangles and their corners anew, given the shell of each triangle; the second list says
+/// which triangle of the old numbering each one was. Points keep their numbers: nothing is decided
+/// by them.
+pub(super) fn renumbered(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> (HalfEdgeMesh, Vec<u32>) {
     let firsts = walk(mesh, &starts(mesh, shell_of_face));
     let mut new_half_edge = vec![0u32; 3 * mesh.face_count()];
     for (new, first) in (0..).step_by(3).zip(&firsts) {
@@ -44,23 +41,14 @@ pub(super) fn renumbered(
             new_half_edge[h.index()] = new + side;
         }
     }
-    let mut new_point = vec![u32::MAX; mesh.positions().len()];
-    let mut positions = Vec::with_capacity(mesh.positions().len());
-    let mut triangles = Vec::with_capacity(mesh.face_count());
-    let mut twins = Vec::with_capacity(3 * mesh.face_count());
-    for first in &firsts {
-        triangles.push(sides(*first).map(|h| {
-            let point = &mut new_point[mesh.origin(h).index()];
-            if *point == u32::MAX {
-                *point = positions.len() as u32;
-                positions.push(mesh.position(mesh.origin(h)));
-            }
-            *point
-        }));
-        twins.extend(sides(*first).map(|h| new_half_edge[mesh.twin(h).index()]));
-    }
-    let marks = firsts.iter().map(|h| marks[h.face().index()]).collect();
-    (HalfEdgeMesh::from_parts(positions, triangles, twins), marks)
+    let corner = |h: HalfEdgeId| mesh.origin(h).0;
+    let triangles = firsts.iter().map(|first| sides(*first).map(corner)).collect();
+    let twins = firsts
+        .iter()
+        .flat_map(|first| sides(*first).map(|h| new_half_edge[mesh.twin(h).index()]))
+        .collect();
+    let old = firsts.iter().map(|h| h.face().0).collect();
+    (HalfEdgeMesh::from_parts(mesh.positions().to_vec(), triangles, twins), old)
 }
 
 /// The sides of a triangle from `first` on.
@@ -244,7 +232,7 @@ mod tests {
 
     fn numbered(mesh: &HalfEdgeMesh) -> HalfEdgeMesh {
         let faces = mesh.face_count();
-        let (mesh, _) = renumbered(mesh, &vec![0; faces], &vec![false; faces]);
+        let (mesh, _) = renumbered(mesh, &vec![0; faces]);
         assert_eq!(mesh.check(), Ok(()));
         mesh
     }
@@ -270,8 +258,9 @@ mod tests {
         let (positions, triangles) = lopsided_box();
         let plain = numbered(&mesh(positions.clone(), triangles.clone()));
         let other = numbered(&shuffled(&positions, &triangles));
-        assert_eq!(plain.positions(), other.positions());
-        assert_eq!(plain.triangles(), other.triangles());
+        for (f, g) in plain.faces().zip(other.faces()) {
+            assert_eq!(plain.corners(f), other.corners(g));
+        }
     }
 
     #[test]
@@ -289,14 +278,15 @@ mod tests {
     }
 
     #[test]
-    fn marks_stay_with_their_triangles() {
+    fn every_triangle_knows_its_old_number() {
         let (positions, triangles) = lopsided_box();
-        let mesh = mesh(positions, triangles);
-        // The two triangles of the upper face.
-        let marks: Vec<bool> = (0..12).map(|f| f == 2 || f == 3).collect();
-        let (mesh, marks) = renumbered(&mesh, &[0; 12], &marks);
-        for (f, marked) in mesh.faces().zip(marks) {
-            assert_eq!(marked, mesh.corners(f).iter().all(|p| p.z == 1.0));
+        let plain = mesh(positions, triangles);
+        let (mesh, old) = renumbered(&plain, &[0; 12]);
+        for (f, old) in mesh.faces().zip(old) {
+            let mut corners = plain.triangles()[old as usize];
+            let turn = corners.iter().position(|v| *v == mesh.triangles()[f.index()][0]);
+            corners.rotate_left(turn.expect("the same corners"));
+            assert_eq!(mesh.triangles()[f.index()], corners);
         }
     }
 }

@@ -9,7 +9,7 @@
 //! | 4 | small and flat openings closed | `close_openings` |
 //! | 5 | fans that touch in a vertex separated | `split_shared_vertices` |
 //! | 6 | shells turned outwards; cavities and islands left out | `choose_shells` |
-//! | 7 | triangles and points numbered by the shape alone | `renumbered` |
+//! | 7 | triangles numbered by the shape alone | `renumbered` |
 //! | 8 | labels cleaned, sets and interface sections found | [`Labels`], [`interface_sections`] |
 //!
 //! **Cavities** (closed hollows inside the material) are left out: a curve skeleton cannot see
@@ -44,6 +44,9 @@ pub struct Surface {
     pub interfaces: Vec<InterfaceSection>,
     /// Search tree over the triangles of `mesh`, in the same order.
     pub tree: TriangleTree,
+    /// Number of each face in the order of the file; eq. (2.2) of the thesis begins its rays at the
+    /// edge that is listed first.
+    pub listed: Vec<u32>,
     /// What was found and mended.
     pub report: MeshReport,
 }
@@ -293,8 +296,9 @@ fn label(
     let kept = shells.of_face.iter().zip(&keep).filter(|(_, kept)| **kept);
     let shell_of_face: Vec<u32> = kept.map(|(s, _)| *s).collect();
     let mesh = HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins);
-    let (mesh, non_design) = renumbered(&mesh, &shell_of_face, &non_design);
-    Ok(finish(mesh, non_design, report))
+    let (mesh, listed) = renumbered(&mesh, &shell_of_face);
+    let non_design = listed.iter().map(|&f| non_design[f as usize]).collect();
+    Ok(finish(mesh, non_design, listed, report))
 }
 
 /// Which faces belong to bodies that a non-design part holds (all, when there are no labels).
@@ -308,7 +312,12 @@ fn held_faces(shells: &Shells, non_design: &[bool], report: &mut MeshReport) -> 
     shells.of_face.iter().map(|&s| held[s as usize]).collect()
 }
 
-fn finish(mesh: HalfEdgeMesh, non_design: Vec<bool>, mut report: MeshReport) -> Surface {
+fn finish(
+    mesh: HalfEdgeMesh,
+    non_design: Vec<bool>,
+    listed: Vec<u32>,
+    mut report: MeshReport,
+) -> Surface {
     debug_assert_eq!(mesh.check(), Ok(()));
     let labels = Labels::new(&mesh, non_design);
     let tree = TriangleTree::new(mesh.faces().map(|f| mesh.corners(f)).collect());
@@ -319,7 +328,7 @@ fn finish(mesh: HalfEdgeMesh, non_design: Vec<bool>, mut report: MeshReport) -> 
     report.volume = mesh.volume();
     report.area = mesh.faces().map(|f| mesh.face_area(f)).sum();
     report.extent = extent(mesh.positions());
-    Surface { mesh, labels, interfaces, tree, report }
+    Surface { mesh, labels, interfaces, tree, listed, report }
 }
 
 /// Tunnels of a closed surface: χ = V − E + F = 2 (bodies − genus).
