@@ -46,5 +46,6 @@ pub mod observer;
 pub mod output;
 pub mod pipeline;
 pub mod section;
+mod segment;
 pub mod skeleton;
 pub mod skeleton_file;

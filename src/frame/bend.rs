@@ -17,7 +17,7 @@ use super::depth::Depths;
 use super::deviation::worst;
 use super::params::FrameParams;
 use super::pieces::{Making, Piece};
-use super::straighten::offset_from_segment;
+use crate::segment;
 
 /// Price of a corner, in squares of the wanted deviation times a length of one radius. A straight
 /// voxel strut of 20 radii costs 0.2 of the 0.5 at the default; an arm of 8 radii whose end is bent
@@ -100,7 +100,7 @@ fn straightest_corner(making: &Making<'_>, params: &FrameParams) -> Option<[usiz
 
 /// Farthest centroid of a piece from an axis, in half-depths.
 fn farthest_from(making: &Making<'_>, piece: &Piece, [a, b]: [Point3<f64>; 2]) -> f64 {
-    let offset = |s: &Stop| s.depths.in_depths(&offset_from_segment(&s.centroid, &a, &b));
+    let offset = |s: &Stop| s.depths.in_depths(&segment::offset(&s.centroid, &a, &b));
     let own = stops(making, piece).into_iter().filter(|s| s.weight >= 0.5);
     own.map(|s| offset(&s)).fold(0.0, f64::max)
 }
@@ -123,7 +123,7 @@ fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<u
     let part = |from: usize, to: usize| {
         let (a, b) = (place(from), place(to));
         let cost = |s: &Stop| {
-            s.weight * share * s.depths.in_depths(&offset_from_segment(&s.centroid, &a, &b)).powi(2)
+            s.weight * share * s.depths.in_depths(&segment::offset(&s.centroid, &a, &b)).powi(2)
         };
         stops[from..to - 1].iter().map(cost).sum::<f64>()
     };

@@ -6,7 +6,7 @@ use super::NodeKind;
 use super::beam_section::BeamSection;
 use super::params::FrameParams;
 use super::pieces::{Making, Piece};
-use super::straighten::distance_to_segment;
+use crate::segment;
 
 /// Largest turn of a member at a node it runs through, as the cosine: 15°.
 const STRAIGHT_ON: f64 = 0.966;
@@ -65,7 +65,7 @@ fn pair(making: &Making<'_>, params: &FrameParams, pieces: [usize; 2]) -> Option
     let cosine = -to.dot(&from);
     let axis = far.map(at);
     let tolerance = params.max_deviation * making.radius(a).min(making.radius(b));
-    let is_near = |p: &Point3<f64>| distance_to_segment(p, &axis[0], &axis[1]) <= tolerance;
+    let is_near = |p: &Point3<f64>| segment::distance(p, &axis[0], &axis[1]) <= tolerance;
     let passed = a.passes.iter().chain(&b.passes).map(|p| p.0).chain([node]);
     let straight = cosine >= STRAIGHT_ON && passed.map(at).all(|p| is_near(&p));
     straight.then_some(Pair { pieces, node, cosine })

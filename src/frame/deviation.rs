@@ -5,9 +5,9 @@ use nalgebra::Point3;
 use super::beam_section::BeamStation;
 use super::params::FrameParams;
 use super::pieces::{Making, Piece};
-use super::straighten::offset_from_segment;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::TriangleTree;
+use crate::segment;
 
 /// How much farther than wanted a branch may bend away: joints shared with others take their part.
 const GRACE: f64 = 1.33;
@@ -35,7 +35,7 @@ pub(super) fn worst(making: &Making<'_>, piece: &Piece) -> Option<Worst> {
         .filter_map(|&p| {
             let section = making.sections[p as usize].as_ref()?;
             let (centroid, depths) = (section.centroid, section.depths());
-            let offsets = near.iter().map(|[a, b]| offset_from_segment(&centroid, a, b));
+            let offsets = near.iter().map(|[a, b]| segment::offset(&centroid, a, b));
             let (depths, distance) = offsets
                 .map(|offset| (depths.in_depths(&offset), offset.norm()))
                 .min_by(|a, b| a.0.total_cmp(&b.0))?;

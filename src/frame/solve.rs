@@ -15,6 +15,8 @@
 
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 
+use crate::segment::part;
+
 /// A centroid that pulls at a beam.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pull {
@@ -90,13 +92,6 @@ fn strengths(count: usize, pulls: &[Pull]) -> Vec<f64> {
     }
     let mean = sums.iter().sum::<f64>() / count.max(1) as f64;
     sums.into_iter().map(|s| if s > 0.0 { s } else { mean }).collect()
-}
-
-/// Part 0..1 of the way from `a` to `b` next to a point.
-fn part(p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
-    let along = b - a;
-    let squared = along.norm_squared();
-    if squared > 0.0 { ((p - a).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// The normal equations, kept as the small blocks they are a sum of.

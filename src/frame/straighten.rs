@@ -5,7 +5,9 @@
 //! Pieces too short to be a beam are then given to their neighbours: next to a junction a branch
 //! turns into it, which is no bend of the beam.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
+
+use crate::segment::distance;
 
 /// Indices at which a chain is broken, its first and last point included.
 ///
@@ -43,9 +45,8 @@ fn join_short_pieces(chain: &[Point3<f64>], shortest: f64, kept: &mut Vec<usize>
             (0, _) => 1,
             (_, 0) => i,
             _ => {
-                let off = |k: usize| {
-                    distance_to_segment(&chain[kept[k]], &chain[kept[k - 1]], &chain[kept[k + 1]])
-                };
+                let off =
+                    |k: usize| distance(&chain[kept[k]], &chain[kept[k - 1]], &chain[kept[k + 1]]);
                 if off(i) <= off(i + 1) { i } else { i + 1 }
             }
         };
@@ -55,7 +56,7 @@ fn join_short_pieces(chain: &[Point3<f64>], shortest: f64, kept: &mut Vec<usize>
 
 fn split(chain: &[Point3<f64>], from: usize, to: usize, tolerance: f64, kept: &mut Vec<usize>) {
     let farthest = (from + 1..to)
-        .map(|i| (i, distance_to_segment(&chain[i], &chain[from], &chain[to])))
+        .map(|i| (i, distance(&chain[i], &chain[from], &chain[to])))
         .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
     match farthest {
         Some((i, distance)) if distance > tolerance => {
@@ -64,23 +65,6 @@ fn split(chain: &[Point3<f64>], from: usize, to: usize, tolerance: f64, kept: &m
         }
         _ => kept.push(to),
     }
-}
-
-/// Distance of a point from a segment, mm.
-pub(crate) fn distance_to_segment(p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
-    offset_from_segment(p, a, b).norm()
-}
-
-/// From a point to the nearest point of a segment, mm.
-pub(crate) fn offset_from_segment(
-    p: &Point3<f64>,
-    a: &Point3<f64>,
-    b: &Point3<f64>,
-) -> Vector3<f64> {
-    let along = b - a;
-    let squared = along.norm_squared();
-    let t = if squared > 0.0 { ((p - a).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    a + along * t - p
 }
 
 #[cfg(test)]
@@ -112,7 +96,7 @@ mod tests {
         assert!(kept.len() >= 6 && kept.len() <= 14, "{kept:?}");
         for w in kept.windows(2) {
             for p in &chain[w[0]..=w[1]] {
-                assert!(distance_to_segment(p, &chain[w[0]], &chain[w[1]]) <= 1.0);
+                assert!(distance(p, &chain[w[0]], &chain[w[1]]) <= 1.0);
             }
         }
     }

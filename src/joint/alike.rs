@@ -19,6 +19,7 @@ use super::{CutBeam, Joints, PER_QUARTER};
 use crate::frame::{Beam, Frame};
 use crate::section::outline::{Outline, Region};
 use crate::section::properties::Contours;
+use crate::segment::distance;
 
 /// Farthest a corner of a beam may lie from that of its model, in section radii. Equal members of
 /// parts meshed three elements to a radius differ by half of it at oblique cuts; the gap it may
@@ -229,15 +230,7 @@ fn is_near(own: &Region, other: &Region, turn: Turn, most: f64) -> bool {
 /// Whether every corner of a polygon lies on another within `most`, mm.
 fn lies_on(corners: &[Point2<f64>], polygon: &[Point2<f64>], most: f64) -> bool {
     let sides = || polygon.iter().zip(polygon.iter().cycle().skip(1));
-    corners.iter().all(|p| sides().any(|(a, b)| off_side(p, a, b) <= most))
-}
-
-/// Distance of a point from a side, mm.
-fn off_side(p: &Point2<f64>, a: &Point2<f64>, b: &Point2<f64>) -> f64 {
-    let along = b - a;
-    let squared = along.norm_squared();
-    let part = if squared > 0.0 { (p - a).dot(&along) / squared } else { 0.0 };
-    (p - (a + along * part.clamp(0.0, 1.0))).norm()
+    corners.iter().all(|p| sides().any(|(a, b)| distance(p, a, b) <= most))
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use super::graph::Skeleton;
 use super::places::places;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
+use crate::segment::distance;
 
 /// A branch tells the surface within so many mean strut radii: the edges of a flat bar of 5 : 1 are
 /// within, those of a plate are not.
@@ -33,7 +34,10 @@ pub(super) fn uncovered(surface: &Surface, skeleton: &Skeleton) -> Option<Findin
     for place in &places {
         let beyond = branches
             .iter()
-            .map(|s| s.distance(&place.point) - reach.max(REACH_OF_A_THICK_BRANCH * s.radius))
+            .map(|s| {
+                distance(&place.point, &s.ends[0], &s.ends[1])
+                    - reach.max(REACH_OF_A_THICK_BRANCH * s.radius)
+            })
             .fold(f64::INFINITY, f64::min);
         if beyond > 0.0 {
             far.push((beyond, place.point));
@@ -64,27 +68,5 @@ impl Segment {
     fn of(skeleton: &Skeleton, ends: [u32; 2]) -> Self {
         let radius = ends.map(|e| skeleton.points[e as usize].radius);
         Self { ends: ends.map(|e| skeleton.position(e)), radius: radius[0].max(radius[1]) }
-    }
-
-    fn distance(&self, p: &Point3<f64>) -> f64 {
-        let [a, b] = self.ends;
-        let along = b - a;
-        let squared = along.norm_squared();
-        let t = if squared > 0.0 { ((p - a).dot(&along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-        (a + along * t - p).norm()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn distance_is_that_to_the_nearer_end_or_to_the_line() {
-        let ends = [Point3::origin(), Point3::new(10.0, 0.0, 0.0)];
-        let segment = Segment { ends, radius: 1.0 };
-        assert_eq!(segment.distance(&Point3::new(5.0, 3.0, 4.0)), 5.0);
-        assert_eq!(segment.distance(&Point3::new(-3.0, 0.0, 4.0)), 5.0);
-        assert_eq!(segment.distance(&Point3::new(13.0, -4.0, 0.0)), 5.0);
     }
 }

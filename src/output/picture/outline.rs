@@ -13,7 +13,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use nalgebra::Point3;
+use nalgebra::{Point2, Point3};
+
+use crate::segment;
 
 /// A corner, tenths of a pixel right and down.
 type Corner = [i32; 2];
@@ -120,11 +122,8 @@ fn distance_squared([x, y]: Corner, [u, v]: Corner) -> i64 {
 
 /// Distance of a corner from a segment.
 fn distance(c: Corner, a: Corner, b: Corner) -> f64 {
-    let [c, a, b] = [c, a, b].map(|[x, y]| nalgebra::Point2::new(f64::from(x), f64::from(y)));
-    let along = b - a;
-    let length_squared = along.norm_squared();
-    let t = if length_squared > 0.0 { (c - a).dot(&along) / length_squared } else { 0.0 };
-    (c - (a + along * t.clamp(0.0, 1.0))).norm()
+    let [c, a, b] = [c, a, b].map(|[x, y]| Point2::new(f64::from(x), f64::from(y)));
+    segment::distance(&c, &a, &b)
 }
 
 fn doubled_area(corners: &[Corner]) -> i64 {

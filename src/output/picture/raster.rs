@@ -7,6 +7,7 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster};
 
 use super::camera::Camera;
 use super::{Facet, Model, Panel, SIZE, SKELETON, light, lit};
+use crate::segment;
 
 /// Pixels drawn for one pixel written, each way: smooths the edges.
 const FINE: usize = 2;
@@ -119,12 +120,9 @@ impl Canvas {
     fn line(&mut self, ends: &[Point3<f64>; 2]) {
         let [a, b] = ends.map(|p| Point2::new(p.x, p.y));
         let (low, high) = (a.inf(&b), a.sup(&b));
-        let along = b - a;
-        let length_squared = along.norm_squared();
         for (x, y) in pixels([low.x - LINE, low.y - LINE], [high.x + LINE, high.y + LINE], self) {
             let p = Point2::new(x as f64 + 0.5, y as f64 + 0.5);
-            let t = if length_squared > 0.0 { (p - a).dot(&along) / length_squared } else { 0.0 };
-            if (p - (a + along * t.clamp(0.0, 1.0))).norm() <= LINE {
+            if segment::distance(&p, &a, &b) <= LINE {
                 self.colour[y * self.width + x] = SKELETON;
             }
         }

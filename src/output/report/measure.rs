@@ -1,10 +1,9 @@
 //! How well skeletons are centred, and what that means for each beam.
 
-use nalgebra::Point3;
-
 use crate::evaluate::{EvaluateError, EvaluateOptions, Evaluated, Evaluator, Link};
 use crate::frame::Frame;
 use crate::mesh::Surface;
+use crate::segment;
 use crate::skeleton::Skeleton;
 
 /// A skeleton of another program.
@@ -74,7 +73,10 @@ pub(super) fn along(frame: &Frame, skeleton: &Skeleton, offsets: &[Option<f64>])
             .collect();
         for &p in &branch.points {
             let position = skeleton.position(p);
-            let distance = |&i: &usize| distance(&position, &frame.axis(&frame.beams[i]));
+            let distance = |&i: &usize| {
+                let [a, b] = frame.axis(&frame.beams[i]);
+                segment::distance(&position, &a, &b)
+            };
             let nearest =
                 beams.iter().map(|i| (distance(i), *i)).min_by(|x, y| x.0.total_cmp(&y.0));
             let Some((distance, i)) = nearest else { continue };
@@ -88,12 +90,4 @@ pub(super) fn along(frame: &Frame, skeleton: &Skeleton, offsets: &[Option<f64>])
         along.offset = (count > 0).then(|| sum / f64::from(count));
     }
     all
-}
-
-/// Distance of a point from a segment, mm.
-fn distance(p: &Point3<f64>, [a, b]: &[Point3<f64>; 2]) -> f64 {
-    let along = b - a;
-    let length_squared = along.norm_squared();
-    let t = if length_squared > 0.0 { (p - a).dot(&along) / length_squared } else { 0.0 };
-    (p - (a + along * t.clamp(0.0, 1.0))).norm()
 }
