@@ -23,6 +23,11 @@ impl Axis {
     }
 }
 
+/// Whether all axes pass a place within a part of their radius.
+pub(crate) fn all_pass(axes: &[Axis], place: &Point3<f64>, within: f64) -> bool {
+    axes.iter().all(|axis| axis.distance(place) <= within * axis.radius)
+}
+
 /// A branch is straight while no centroid is farther from the line than this part of the radius.
 /// The wave of y_form (0.2) is straight, the bends of easy arcs (0.5 over ten radii) are not.
 const STRAIGHT: f64 = 0.3;

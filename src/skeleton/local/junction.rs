@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::axis::{Axis, axis_at_start};
+use super::axis::{Axis, all_pass, axis_at_start};
 use super::draft::{Draft, HubKind, Run, Station};
 use crate::mesh::Surface;
 use crate::skeleton::inside::middle_of_wall;
@@ -91,19 +91,14 @@ fn is_in_a_stem(
     axes: &[Axis],
     meeting: &Point3<f64>,
 ) -> bool {
-    axes.iter().all(|axis| axis.distance(meeting) <= MEETS * axis.radius)
+    all_pass(axes, meeting, MEETS)
         && runs.iter().any(|&(r, end)| is_on_the_way(&draft.runs[r], end, meeting))
 }
 
 /// Whether a place lies in one of the sections of a run's nearer half.
 fn is_on_the_way(run: &Run, end: usize, place: &Point3<f64>) -> bool {
-    let nearer = run.stations.len() / 2;
     let holds = |s: &Station| (s.centroid - place).norm() <= s.radius;
-    if end == 0 {
-        run.stations.iter().take(nearer).any(holds)
-    } else {
-        run.stations.iter().rev().take(nearer).any(holds)
-    }
+    run.seen_from(end).iter().take(run.stations.len() / 2).any(holds)
 }
 
 /// `wanted`, or the point nearest to it on the way to `fallback` that lies inside, or the middle of

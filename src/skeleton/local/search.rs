@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::Point3;
 
-use super::axis::{Axis, axis_at_start};
+use super::axis::{Axis, all_pass, axis_at_start};
 use super::band::Front;
 use super::draft::{Station, reversed, stations_of};
 use super::junction::meeting_point;
@@ -166,7 +166,7 @@ fn may_hide_a_strut(seen: &Seen<'_>, piece: &Patch) -> bool {
 fn meet(legs: &[Vec<Station>], middle: &Point3<f64>) -> bool {
     let axes: Vec<Axis> = legs.iter().filter_map(|leg| axis_at_start(leg)).collect();
     let meeting = meeting_point(&axes, middle);
-    axes.iter().all(|axis| axis.distance(&meeting) <= MISSES * axis.radius)
+    all_pass(&axes, &meeting, MISSES)
 }
 
 fn search(

@@ -3,7 +3,7 @@
 
 use nalgebra::Point3;
 
-use super::axis::{Axis, axis_at_start};
+use super::axis::{Axis, all_pass, axis_at_start};
 use super::draft::{Draft, HubKind};
 use super::junction::{meeting_point, nearest_inside, place_joints};
 use crate::mesh::Surface;
@@ -100,9 +100,7 @@ fn one_point_explains(axes: &[Axis], p: &Point3<f64>, q: &Point3<f64>) -> bool {
     let between = nalgebra::center(p, q);
     let meeting = meeting_point(axes, &between);
     let reach = 0.5 * (p - q).norm() + axes.iter().map(|a| a.radius).fold(0.0, f64::max);
-    axes.len() > 2
-        && (meeting - between).norm() <= reach
-        && axes.iter().all(|a| a.distance(&meeting) <= MEETS * a.radius)
+    axes.len() > 2 && (meeting - between).norm() <= reach && all_pass(axes, &meeting, MEETS)
 }
 
 /// Removes run `r` and lets everything that ended in `from` end in `into`.
