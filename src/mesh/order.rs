@@ -15,7 +15,7 @@ use nalgebra::{Point3, Vector3};
 use rustc_hash::FxHashSet;
 
 use super::half_edge::HalfEdgeMesh;
-use super::id::{FaceId, HalfEdgeId, VertexId};
+use super::id::{FaceId, HalfEdgeId};
 
 /// Lengths that differ by less than this part of the size of the mesh are equal. Turning a part
 /// rounds its coordinates by 1e-16, writing them with seven digits by 1e-7; two corners that differ
@@ -33,8 +33,8 @@ const MOST_STARTS: usize = 96;
 /// Numbers triangles and their corners anew, given the shell of each triangle; the second list says
 /// which triangle of the old numbering each one was. Points keep their numbers: nothing is decided
 /// by them.
-pub(super) fn renumbered(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> (HalfEdgeMesh, Vec<u32>) {
-    let firsts = walk(mesh, &starts(mesh, shell_of_face));
+pub(super) fn renumbered(mesh: HalfEdgeMesh, shell_of_face: &[u32]) -> (HalfEdgeMesh, Vec<u32>) {
+    let firsts = walk(&mesh, &starts(&mesh, shell_of_face));
     let mut new_half_edge = vec![0u32; 3 * mesh.face_count()];
     for (new, first) in (0..).step_by(3).zip(&firsts) {
         for (side, h) in (0..).zip(sides(*first)) {
@@ -48,7 +48,8 @@ pub(super) fn renumbered(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> (HalfEdg
         .flat_map(|first| sides(*first).map(|h| new_half_edge[mesh.twin(h).index()]))
         .collect();
     let old = firsts.iter().map(|h| h.face().0).collect();
-    (HalfEdgeMesh::from_parts(mesh.positions().to_vec(), triangles, twins), old)
+    let (positions, ..) = mesh.into_parts();
+    (HalfEdgeMesh::from_parts(positions, triangles, twins), old)
 }
 
 /// The sides of a triangle from `first` on.
@@ -105,11 +106,11 @@ fn starts(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> Vec<HalfEdgeId> {
     let shell = |h: HalfEdgeId| shell_of_face[h.face().index()] as usize;
     for h in all() {
         let r = &mut reach[shell(h)];
-        *r = r.max(ruler.distance(mesh.origin(h)));
+        *r = r.max(ruler.distance(h));
     }
     let mut outermost: Vec<Vec<HalfEdgeId>> = vec![Vec::new(); count];
     for h in all() {
-        if ruler.distance(mesh.origin(h)) >= reach[shell(h)] - ruler.equal {
+        if ruler.distance(h) >= reach[shell(h)] - ruler.equal {
             outermost[shell(h)].push(h);
         }
     }
@@ -122,7 +123,8 @@ fn starts(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> Vec<HalfEdgeId> {
 /// Measures from the middle of a surface.
 struct Ruler<'a> {
     mesh: &'a HalfEdgeMesh,
-    centre: Point3<f64>,
+    /// Distance of every point from the middle, mm.
+    distances: Vec<f64>,
     /// Lengths that differ by less are equal, mm.
     equal: f64,
 }
@@ -138,12 +140,14 @@ impl<'a> Ruler<'a> {
             moment += (a + b + c) * (weight / 3.0);
         }
         let centre = if area > 0.0 { origin + moment / area } else { origin };
-        let size = mesh.positions().iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
-        Self { mesh, centre, equal: EQUAL * size }
+        let distances: Vec<f64> = mesh.positions().iter().map(|p| (p - centre).norm()).collect();
+        let size = distances.iter().copied().fold(0.0, f64::max);
+        Self { mesh, distances, equal: EQUAL * size }
     }
 
-    fn distance(&self, v: VertexId) -> f64 {
-        (self.mesh.position(v) - self.centre).norm()
+    /// How far out a half-edge begins, mm.
+    fn distance(&self, h: HalfEdgeId) -> f64 {
+        self.distances[self.mesh.origin(h).index()]
     }
 
     /// The half-edge of all whose walk comes first.
@@ -174,7 +178,7 @@ impl<'a> Ruler<'a> {
     /// What is compared of a triangle: how far out it begins, and its next two sides.
     fn lengths(&self, first: HalfEdgeId) -> [f64; 3] {
         let [a, b, c] = sides(first).map(|h| self.mesh.position(self.mesh.origin(h)));
-        [(a - self.centre).norm(), (b - a).norm(), (c - b).norm()]
+        [self.distance(first), (b - a).norm(), (c - b).norm()]
     }
 
     fn by_coordinates(&self, a: HalfEdgeId, b: HalfEdgeId) -> Ordering {
@@ -232,7 +236,7 @@ mod tests {
 
     fn numbered(mesh: &HalfEdgeMesh) -> HalfEdgeMesh {
         let faces = mesh.face_count();
-        let (mesh, _) = renumbered(mesh, &vec![0; faces]);
+        let (mesh, _) = renumbered(mesh.clone(), &vec![0; faces]);
         assert_eq!(mesh.check(), Ok(()));
         mesh
     }
@@ -281,7 +285,7 @@ mod tests {
     fn every_triangle_knows_its_old_number() {
         let (positions, triangles) = lopsided_box();
         let plain = mesh(positions, triangles);
-        let (mesh, old) = renumbered(&plain, &[0; 12]);
+        let (mesh, old) = renumbered(plain.clone(), &[0; 12]);
         for (f, old) in mesh.faces().zip(old) {
             let mut corners = plain.triangles()[old as usize];
             let turn = corners.iter().position(|v| *v == mesh.triangles()[f.index()][0]);

@@ -296,7 +296,7 @@ fn label(
     let kept = shells.of_face.iter().zip(&keep).filter(|(_, kept)| **kept);
     let shell_of_face: Vec<u32> = kept.map(|(s, _)| *s).collect();
     let mesh = HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins);
-    let (mesh, listed) = renumbered(&mesh, &shell_of_face);
+    let (mesh, listed) = renumbered(mesh, &shell_of_face);
     let non_design = listed.iter().map(|&f| non_design[f as usize]).collect();
     Ok(finish(mesh, non_design, listed, report))
 }
