@@ -39,11 +39,8 @@ fn the_wall_of_a_hole_is_no_part_and_told() {
         let outside = (p[0].abs() - 20.0).max(p[1].abs() - 20.0).max(p[2].abs() - 6.0);
         outside.max(9.0 - radius(p))
     };
-    let mut mesh = surface_of(plate, [-22.4, -22.4, -8.4], [22.4, 22.4, 8.4], 1.3);
-    let middle = |t: &[u32; 3]| {
-        [0, 1, 2].map(|k| t.iter().map(|&v| mesh.positions[v as usize][k]).sum::<f64>() / 3.0)
-    };
-    mesh.non_design = mesh.triangles.iter().map(|t| radius(middle(t)) < 9.3).collect();
+    let mesh = surface_of(plate, [-22.4, -22.4, -8.4], [22.4, 22.4, 8.4], 1.3)
+        .labelled(|middle| radius(middle) < 9.3);
     let found = parts(&mesh);
     assert!(found.parts.is_empty() && found.meshes.is_empty());
     let [finding] = found.findings.as_slice() else { panic!("{:?}", found.findings) };
@@ -56,15 +53,8 @@ fn a_part_of_too_many_faces_goes_beside_with_a_finding() {
     let ball = |p: [f64; 3], x: f64| ((p[0] - x).powi(2) + p[1] * p[1] + p[2] * p[2]).sqrt() - 10.0;
     let bar = |p: [f64; 3]| (p[1].hypot(p[2]) - 3.0).max(-p[0]).max(p[0] - 60.0);
     let solid = |p: [f64; 3]| ball(p, 0.0).min(ball(p, 60.0)).min(bar(p));
-    let mut mesh = surface_of(solid, [-12.3, -12.3, -12.3], [72.3, 12.3, 12.3], 0.6);
-    let middle = |t: &[u32; 3]| {
-        [0, 1, 2].map(|k| t.iter().map(|&v| mesh.positions[v as usize][k]).sum::<f64>() / 3.0)
-    };
-    mesh.non_design = mesh
-        .triangles
-        .iter()
-        .map(|t| ball(middle(t), 0.0).min(ball(middle(t), 60.0)) < 0.2)
-        .collect();
+    let mesh = surface_of(solid, [-12.3, -12.3, -12.3], [72.3, 12.3, 12.3], 0.6)
+        .labelled(|middle| ball(middle, 0.0).min(ball(middle, 60.0)) < 0.2);
     let found = parts(&mesh);
     assert!(found.parts.is_empty());
     let told = found.findings.iter().filter(|f| f.kind == FindingKind::NonDesign).count();

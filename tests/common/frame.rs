@@ -24,17 +24,8 @@ impl TrueFrame {
         let high = [0, 1, 2].map(|k| self.bound(k, f64::max) + margin);
         // A grid that no pad face lies on.
         let low = low.map(|x| x - 0.37 * step);
-        let mut mesh = surface_of(|p| self.distance(p), low, high, step);
-        mesh.non_design = mesh
-            .triangles
-            .iter()
-            .map(|t| {
-                let middle: [f64; 3] = [0, 1, 2]
-                    .map(|k| t.iter().map(|&v| mesh.positions[v as usize][k]).sum::<f64>() / 3.0);
-                self.pad_distance(middle) < 0.35 * step
-            })
-            .collect();
-        mesh
+        surface_of(|p| self.distance(p), low, high, step)
+            .labelled(|middle| self.pad_distance(middle) < 0.35 * step)
     }
 
     fn bound(&self, axis: usize, pick: fn(f64, f64) -> f64) -> f64 {

@@ -20,6 +20,15 @@ pub struct TestMesh {
 }
 
 impl TestMesh {
+    /// The mesh with the triangles labelled whose middle lies on a non-design part.
+    pub fn labelled(mut self, is_non_design: impl Fn([f64; 3]) -> bool) -> Self {
+        let middle = |t: &[u32; 3]| {
+            [0, 1, 2].map(|k| t.iter().map(|&v| self.positions[v as usize][k]).sum::<f64>() / 3.0)
+        };
+        self.non_design = self.triangles.iter().map(|t| is_non_design(middle(t))).collect();
+        self
+    }
+
     /// What a reader would deliver.
     pub fn raw(&self) -> RawMesh {
         let mut faces = Polygons::default();
