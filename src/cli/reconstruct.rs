@@ -127,9 +127,7 @@ impl Targets {
             looks,
         })
     }
-}
 
-impl Targets {
     /// Checks the mesh file of non-design parts against what else is read and written.
     fn claim_beside(&self, args: &ReconstructArgs) -> Result<(), Failure> {
         let all = self.claimed.iter().chain([&self.beside]);

@@ -1,7 +1,7 @@
 //! The frame as a STEP assembly: one named, coloured solid a beam.
 //!
-//! Beams that are one piece (see [`alike()`]) share the solid and the properties of the first of them:
-//! its length and mass, all their branches, the worst of their errors.
+//! Beams that are one piece (see [`alike()`]) share the solid and the properties of the first of
+//! them: its length and mass, all their branches, the worst of their errors.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 

@@ -10,7 +10,8 @@ pub struct Material {
     pub name: String,
     /// Density, kg/m³.  Range: `(0, 30000]`; osmium has 22,590.  Default: 7850.
     pub density: f64,
-    /// Elastic modulus, MPa.  Range: `(0, 2e6]`; diamond has 1.1e6.  Default: 210 000, structural steel (EN 1993-1-1, 3.2.6).
+    /// Elastic modulus, MPa.  Range: `(0, 2e6]`; diamond has 1.1e6.  Default: 210 000, structural
+    /// steel (EN 1993-1-1, 3.2.6).
     pub elastic_modulus: f64,
     /// Poisson's ratio.  Range: `[0, 0.5)`; at 0.5 nothing can be compressed.  Default: 0.3.
     pub poisson: f64,

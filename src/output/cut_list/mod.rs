@@ -1,7 +1,8 @@
 //! The cut list: what to order, saw and paint.
 //!
-//! Beams that are one piece (see [`alike()`](crate::joint::alike())) are one line with a quantity. Lines are sorted by profile and then by
-//! length, so that they do not depend on the order of faces in the mesh; `P01` is the first.
+//! Beams that are one piece (see [`alike()`](crate::joint::alike())) are one line with a quantity.
+//! Lines are sorted by profile and then by length, so that they do not depend on the order of faces
+//! in the mesh; `P01` is the first.
 //!
 //! | module | what |
 //! |---|---|
