@@ -149,7 +149,7 @@ fn mean(stations: &[BeamStation], twist: f64) -> Moments {
 }
 
 /// End values by straight lines through √A, which is straight in a taper, and the moments in
-/// squares of the area; never below a tenth of the mean.
+/// squares of the area; no principal one below a tenth of the mean's least.
 fn ends(stations: &[BeamStation], mean: &Moments, twist: f64) -> [Moments; 2] {
     let side = line(stations, |s| s.moments.area.sqrt());
     let part = |of: fn(&Moments) -> f64| {
@@ -162,13 +162,13 @@ fn ends(stations: &[BeamStation], mean: &Moments, twist: f64) -> [Moments; 2] {
         let area = side[e].max(0.0).powi(2).max(0.1 * mean.area);
         let squared = area * area;
         let least = 0.1 * squared / mean.area.powi(2);
-        Moments {
-            area,
-            i_yy: (yy[e] * squared).max(least * mean.i_yy),
-            i_zz: (zz[e] * squared).max(least * mean.i_zz),
-            i_yz: yz[e] * squared,
-        }
-        .turned(turn_at(twist, e as f64))
+        let i_yy = (yy[e] * squared).max(least * mean.i_yy);
+        let i_zz = (zz[e] * squared).max(least * mean.i_zz);
+        // I₂ ≥ m exactly where I_yz² ≤ (I_yy − m)(I_zz − m).
+        let least_principal = least * mean.principal().1;
+        let most = ((i_yy - least_principal) * (i_zz - least_principal)).max(0.0).sqrt();
+        Moments { area, i_yy, i_zz, i_yz: (yz[e] * squared).clamp(-most, most) }
+            .turned(turn_at(twist, e as f64))
     })
 }
 
@@ -192,6 +192,20 @@ mod tests {
         for (end, radius) in ends.iter().zip([7.0, 4.0]) {
             assert!((end.radius() - radius).abs() < 1e-6, "{}", end.radius());
             assert!((end.i_yy - std::f64::consts::PI * f64::powi(radius, 4) / 4.0).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn ends_that_run_away_stay_those_of_a_section() {
+        let turning =
+            |i: i32| Moments { area: 60.0, i_yy: 340.0, i_zz: 340.0, i_yz: f64::from(70 * i) };
+        let mut stations: Vec<_> =
+            (0..5).map(|i| station(0.3 + 0.1 * f64::from(i), turning(i - 2))).collect();
+        weigh(&mut stations);
+        let mean = mean(&stations, 0.0);
+        let least = 0.1 * mean.principal().1;
+        for end in ends(&stations, &mean, 0.0) {
+            assert!(end.principal().1 >= least * (1.0 - 1e-9), "{end:?}");
         }
     }
 

@@ -145,8 +145,10 @@ def grey(picture: Picture) -> int:
 
 
 def coloured(picture: Picture) -> int:
-    """Pixels of beams: of any strong colour but the red of non-design faces and the blue of the
-    ground, which has as much red as green. Which profile has which colour does not matter."""
+    """Pixels of beams, in whatever colours their profiles have.
+
+    Left out are the red of non-design faces and the blue of the ground, as much red as green.
+    """
     pixels = view(picture)
     r, g, b = (pixels[..., i] for i in range(3))
     strong = pixels.max(axis=2) - pixels.min(axis=2) > 60
