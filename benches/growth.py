@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import os
 import struct
 import subprocess
 import sys
@@ -102,21 +101,26 @@ def measure(command: list[str]) -> tuple[float, float]:
 
 
 def main() -> None:
+    """Prints one line for each size of the mesh, from that of the file up."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("mesh", type=Path, nargs="?", default=ROOT / "samples/single_bar.obj")
-    parser.add_argument("--to", type=int, default=1_000_000, help="about how many triangles at most")
+    parser.add_argument(
+        "--to", type=int, default=1_000_000, help="about how many triangles at most"
+    )
     parser.add_argument(
         "--program", type=Path, default=ROOT / "target/release/beamwright", help="the binary"
     )
     wanted = parser.parse_args()
     mesh = read_obj(wanted.mesh)
-    print(f"{'triangles':>10} {'cpu s':>8} {'us/tri':>8} {'peak MB':>8} {'bytes/tri':>10} {'growth':>7}")
+    columns = [("triangles", 10), ("cpu s", 8), ("us/tri", 8), ("peak MB", 8)]
+    columns += [("bytes/tri", 10), ("growth", 7)]
+    print(*(f"{name:>{width}}" for name, width in columns))
     before = None
     with tempfile.TemporaryDirectory() as folder:
         while len(mesh[1]) <= 1.5 * wanted.to:
             path, count = Path(folder, "mesh.ply"), len(mesh[1])
             write_ply(path, mesh)
-            out = os.path.join(folder, "skeleton.json")
+            out = str(Path(folder, "skeleton.json"))
             seconds, megabytes = min(
                 measure([str(wanted.program), "-q", "skeleton", str(path), "-o", out])
                 for _ in range(3)

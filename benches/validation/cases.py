@@ -57,6 +57,7 @@ def closed_design_part(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def write_off(path: Path, points: np.ndarray, triangles: np.ndarray) -> None:
+    """A mesh as OFF, each number to its last digit."""
     with path.open("w") as out:
         out.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
         np.savetxt(out, points, fmt="%.17g")
@@ -64,6 +65,7 @@ def write_off(path: Path, points: np.ndarray, triangles: np.ndarray) -> None:
 
 
 def write_lines(path: Path, points: np.ndarray, segments: list[tuple[int, int]]) -> None:
+    """A skeleton as OBJ lines, each number to its last digit."""
     with path.open("w") as out:
         for x, y, z in points:
             out.write(f"v {x:.17g} {y:.17g} {z:.17g}\n")

@@ -50,6 +50,7 @@ def laplacian(points: np.ndarray, triangles: np.ndarray) -> sparse.csr_matrix:
 
 
 def ring_areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Area of the triangles around each point."""
     a, b, c = (points[triangles[:, k]] for k in range(3))
     areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
     sums = np.zeros(len(points))
@@ -93,6 +94,7 @@ def farthest_samples(points: np.ndarray, radius: float) -> tuple[np.ndarray, np.
 
 def thin(places: np.ndarray, links: dict[int, set[int]]) -> None:
     """Collapses the sides of triangles, the shortest first, until there is none."""
+
     def length(a: int, b: int) -> float:
         return float(np.linalg.norm(places[a] - places[b]))
 

@@ -10,9 +10,9 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import PolyCollection
-
 from cases import Mesh
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 
 #: A direction that no face of the samples lies along.
 RAY = np.array([0.36787944, 0.57721566, 0.7291532])
@@ -41,7 +41,8 @@ def draw(path: Path, mesh: Mesh, skeletons: dict[str, list[np.ndarray]]) -> None
     plt.close(figure)
 
 
-def shadow(axis, mesh: Mesh, a: int, b: int) -> None:
+def shadow(axis: Axes, mesh: Mesh, a: int, b: int) -> None:
+    """The mesh, flat: the design part grey, the non-design parts orange."""
     for of, colour in [(~mesh.non_design, "#dfe6ec"), (mesh.non_design, "#f3d9c0")]:
         faces = mesh.points[mesh.triangles[of]][:, :, [a, b]]
         axis.add_collection(PolyCollection(faces, facecolor=colour, edgecolor=colour, lw=0.3))

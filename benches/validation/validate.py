@@ -15,10 +15,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
-
 import cases
 import laplacian
+import numpy as np
 import picture
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,11 +27,27 @@ OUT = ROOT / "target/validation"
 #: Sample, its name in the thesis, and what the thesis prints for E_center, compactness and points
 #: outside of its own method, method 1 (mean curvature flow) and method 2 (Laplacian).
 CASES: list[tuple[str, str, list[tuple[float, int, int]]]] = [
-    ("cantilever", "table 4.1, 4.4: cantilever 1.6 mm", [(0.0120, 38, 0), (0.0134, 753, 0), (0.0165, 116, 1)]),
-    ("cantilever_14mm", "table 4.4: cantilever 1.4 mm", [(0.0118, 55, 0), (0.0125, 715, 0), (0.0153, 133, 0)]),
+    (
+        "cantilever",
+        "table 4.1, 4.4: cantilever 1.6 mm",
+        [(0.0120, 38, 0), (0.0134, 753, 0), (0.0165, 116, 1)],
+    ),
+    (
+        "cantilever_14mm",
+        "table 4.4: cantilever 1.4 mm",
+        [(0.0118, 55, 0), (0.0125, 715, 0), (0.0153, 133, 0)],
+    ),
     ("y_form", "table 4.5: Y form", [(0.0093, 13, 0), (0.0110, 344, 0), (0.0135, 37, 0)]),
-    ("monster_lite", "table 4.6: Monster lite", [(0.0097, 20, 0), (0.0118, 470, 0), (0.0132, 90, 0)]),
-    ("four_fixings", "table 4.7: four fixings", [(0.0074, 90, 0), (0.0089, 1316, 0), (0.0113, 199, 1)]),
+    (
+        "monster_lite",
+        "table 4.6: Monster lite",
+        [(0.0097, 20, 0), (0.0118, 470, 0), (0.0132, 90, 0)],
+    ),
+    (
+        "four_fixings",
+        "table 4.7: four fixings",
+        [(0.0074, 90, 0), (0.0089, 1316, 0), (0.0113, 199, 1)],
+    ),
     ("single_bar", "known truth: one bar", []),
     ("quadpod", "known truth: four legs and a column", []),
 ]
@@ -61,6 +76,7 @@ def skeletons(sample: str, flow: Path) -> dict[str, Path]:
 
 
 def run(*command: object) -> str:
+    """What a command prints; ends the program where the command fails."""
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{' '.join(str(c) for c in command)}\n{done.stderr}")
@@ -98,10 +114,12 @@ def junction_error(sample: str, path: Path) -> str:
 
 
 def number(value: float | None) -> str:
+    """Four digits, or a dash for none."""
     return "–" if value is None else f"{value:.4f}"
 
 
 def row(name: str, e: dict, junctions: str) -> str:
+    """A line of the table under `HEAD`."""
     raw, even, topology = e["raw"], e["resampled"], e["topology"]
     return (
         f"| {name} | {number(raw['e_center'])} | {number(even['e_center'])} "
@@ -153,6 +171,7 @@ unseen (Y form). The program says so in its findings, and ends in exit code 3 wi
 
 
 def main() -> None:
+    """Writes the page and its pictures."""
     OUT.mkdir(parents=True, exist_ok=True)
     text = [INTRODUCTION]
     for sample, title, thesis in CASES:
@@ -161,7 +180,9 @@ def main() -> None:
         text.append(f"## {title[0].upper()}{title[1:]} (`samples/{sample}.obj`)\n\n{HEAD}")
         text += [row(m, figures[m], junction_error(sample, made[m])) + "\n" for m in METHODS]
         for method, (e, points, outside) in zip(["its method", "method 1", "method 2"], thesis):
-            text.append(f"| *thesis, {method}* | *{e:.4f}* | | | | *{points}* | *{outside}* | | | |\n")
+            text.append(
+                f"| *thesis, {method}* | *{e:.4f}* | | | | *{points}* | *{outside}* | | | |\n"
+            )
         png = f"pictures/validation_{sample}.png"
         mesh = cases.read_obj(ROOT / "samples" / f"{sample}.obj")
         picture.draw(ROOT / "docs" / png, mesh, {m: cases.read_polylines(made[m]) for m in METHODS})

@@ -4,9 +4,9 @@
 
     check_exports.py PROGRAM SAMPLES
 
-DXF: ezdxf finds no error and as many lines as beams.  IFC: ifcopenshell finds it valid, express rules
-included, with as many members as beams, none twice.  CalculiX: a bar bends as P L³ / 3 E I says, and
-a whole cantilever is solved.
+DXF: ezdxf finds no error and as many lines as beams.  IFC: ifcopenshell finds it valid, express
+rules included, with as many members as beams, none twice.  CalculiX: a bar bends as P L³ / 3 E I
+says, and a whole cantilever is solved.
 """
 
 from __future__ import annotations
@@ -119,7 +119,9 @@ def main() -> None:
         # to are a few per cent off.
         exact = 100 * 80**3 / (3 * 210_000 * math.pi * 4**4 / 4)
         found = solve(folder / "single_bar.inp", 100)
-        check(abs(found / exact - 1) < 0.03, f"bar bends by {found:.4f} mm, beam theory {exact:.4f}")
+        check(
+            abs(found / exact - 1) < 0.03, f"bar bends by {found:.4f} mm, beam theory {exact:.4f}"
+        )
         found = solve(folder / "cantilever.inp", 1)
         check(0 < found < 1, f"cantilever gives way by {found:.2e} mm under 1 N")
         hostile(program, samples, folder)

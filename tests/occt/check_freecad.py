@@ -10,6 +10,7 @@ repeated names).  Prints a line for each file; the last line is `OK` or `FAULTS`
 FreeCAD's own volume is a rough one: it is up to 10 % off for the twisted and smooth
 B-spline sides here that OCCT's adaptive integration gets right to ten digits.
 """
+
 import json
 import os
 import sys
@@ -34,7 +35,7 @@ def leaves(item, path):
 def same_name(label, name):
     """Whether FreeCAD may have made the label from the name by numbering it."""
     stem = name.rstrip("0123456789")
-    return label == name or label.startswith(stem) and label[len(stem):].isdigit()
+    return label == name or (label.startswith(stem) and label[len(stem) :].isdigit())
 
 
 def faults_of(path, item, meant):

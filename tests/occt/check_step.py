@@ -11,6 +11,7 @@ parts that are alike must share one product.
 
 Needs the PyPI package cadquery-ocp.  Exit code 1 if anything is wrong.
 """
+
 from __future__ import annotations
 
 import json
@@ -52,9 +53,11 @@ def sequence():
     """An empty sequence of labels."""
     try:
         from OCP.OCP.collections import Sequence_TDF_Label
+
         return Sequence_TDF_Label()
     except ImportError:
         from OCP.TDF import TDF_LabelSequence
+
         return TDF_LabelSequence()
 
 
@@ -103,12 +106,18 @@ class Model:
 class Reader:
     """Reads a file with names, colours, properties and placements."""
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path) -> None:
         application = static(XCAFApp_Application, "GetApplication")()
         self.document = TDocStd_Document(TCollection_ExtendedString("XmlXCAF"))
         application.NewDocument(TCollection_ExtendedString("MDTV-XCAF"), self.document)
         reader = STEPCAFControl_Reader()
-        for mode in ("SetColorMode", "SetNameMode", "SetPropsMode", "SetMetaMode", "SetProductMetaMode"):
+        for mode in (
+            "SetColorMode",
+            "SetNameMode",
+            "SetPropsMode",
+            "SetMetaMode",
+            "SetProductMetaMode",
+        ):
             if hasattr(reader, mode):
                 getattr(reader, mode)(True)
         if reader.ReadFile(str(path)) != IFSelect_RetDone or not reader.Transfer(self.document):
@@ -141,9 +150,16 @@ class Reader:
     def leaf(self, component, definition, path) -> Leaf:
         shape = static(XCAFDoc_ShapeTool, "GetShape")(component)
         volume = attribute(definition, XCAFDoc_Volume)
-        return Leaf(name_of(component), name_of(definition), path, shape, definition,
-                    self.colour(shape, definition), attribute(definition, TDataStd_NamedData),
-                    volume.Get() if volume else None)
+        return Leaf(
+            name_of(component),
+            name_of(definition),
+            path,
+            shape,
+            definition,
+            self.colour(shape, definition),
+            attribute(definition, TDataStd_NamedData),
+            volume.Get() if volume else None,
+        )
 
     def colour(self, shape, definition):
         own = static(XCAFDoc_ShapeTool, "GetShape")(definition)
@@ -183,8 +199,12 @@ def faults_of_shape(leaf: Leaf):
 
 def faults_against(leaf: Leaf, meant: dict):
     """How a part differs from what was meant."""
-    for what, found in (("name", leaf.name), ("product", leaf.product), ("path", leaf.path),
-                        ("colour", leaf.colour)):
+    for what, found in (
+        ("name", leaf.name),
+        ("product", leaf.product),
+        ("path", leaf.path),
+        ("colour", leaf.colour),
+    ):
         if found != meant[what]:
             yield f"{what} {found!r}, not {meant[what]!r}"
     off = volume(leaf.shape) / meant["volume"] - 1
@@ -197,8 +217,13 @@ def faults_against(leaf: Leaf, meant: dict):
     size = max(1.0, *(abs(x) for x in meant["placement"]))
     if any(abs(a - b) > SAME * size for a, b in zip(found, meant["placement"])):
         yield f"placed at {found}, not {meant['placement']}"
-    widest = max((static(BRep_Tool, "Tolerance")(static(TopoDS, "Edge")(edge))
-                  for edge in below(leaf.shape, TopAbs_EDGE)), default=0.0)
+    widest = max(
+        (
+            static(BRep_Tool, "Tolerance")(static(TopoDS, "Edge")(edge))
+            for edge in below(leaf.shape, TopAbs_EDGE)
+        ),
+        default=0.0,
+    )
     if widest > max(WIDEST_EDGE, 10 * meant["accuracy"] * meant["volume"] ** (1 / 3)):
         yield f"an edge is {widest:.1e} mm off its face"
     for name, value in meant["properties"].items():
@@ -233,14 +258,20 @@ def check(path: Path):
             faults.append(f"{len(model.leaves)} parts, not {len(parts)}")
         for leaf, meant in zip(model.leaves, parts):
             faults += [f"{leaf.name!r}: {fault}" for fault in faults_against(leaf, meant)]
-        distinct = {json.dumps([p["product"], p["colour"], p["volume"], p["properties"]]) for p in parts}
+        distinct = {
+            json.dumps([p["product"], p["colour"], p["volume"], p["properties"]]) for p in parts
+        }
         if model.products != len(distinct):
             faults.append(f"{model.products} products, not {len(distinct)}")
     return faults, model
 
 
 def main() -> int:
-    paths = [p for a in map(Path, sys.argv[1:]) for p in (sorted(a.glob("*.step")) if a.is_dir() else [a])]
+    paths = [
+        p
+        for a in map(Path, sys.argv[1:])
+        for p in (sorted(a.glob("*.step")) if a.is_dir() else [a])
+    ]
     if not paths:
         print(__doc__, file=sys.stderr)
         return 2
@@ -251,8 +282,10 @@ def main() -> int:
         except (ValueError, OSError) as error:
             faults, model = [str(error)], Model()
         wrong += len(faults)
-        print(f"{path.name}: {len(model.leaves)} parts of {model.products} products, "
-              f"{len(faults) or 'no'} fault{'s' if len(faults) != 1 else ''}")
+        print(
+            f"{path.name}: {len(model.leaves)} parts of {model.products} products, "
+            f"{len(faults) or 'no'} fault{'s' if len(faults) != 1 else ''}"
+        )
         for fault in faults:
             print(f"    {fault}")
     return 1 if wrong else 0

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """time_read.py FOLDER: CPU seconds OCCT takes to read each STEP file of a folder, best of three."""
+
 import sys
 import time
 from pathlib import Path
@@ -26,4 +27,7 @@ def read(path):
 
 for file in sorted(Path(sys.argv[1]).glob("*.step")):
     seconds, solids = min(read(file) for _ in range(3))
-    print(f"{file.name:24} {file.stat().st_size / 1e6:7.2f} MB {solids:6} solids {seconds:7.2f} s", flush=True)
+    print(
+        f"{file.name:24} {file.stat().st_size / 1e6:7.2f} MB {solids:6} solids {seconds:7.2f} s",
+        flush=True,
+    )

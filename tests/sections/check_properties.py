@@ -38,7 +38,7 @@ def reference(item: dict) -> dict:
     section = Section(geometry)
     section.calculate_geometric_properties()
     section.calculate_warping_properties()
-    i_xx, i_yy, i_xy = section.get_ic()
+    i_xx, i_yy, _ = section.get_ic()
     i_1, i_2 = section.get_ip()
     return {
         "area": section.get_area(),
@@ -85,7 +85,9 @@ def main() -> int:
         found = faults(item, exact)
         failed += bool(found)
         formula = item["j_of_formula"]
-        of_formula = "" if formula is None else f", formula {100 * (formula / exact['j'] - 1):+.2f} %"
+        of_formula = (
+            "" if formula is None else f", formula {100 * (formula / exact['j'] - 1):+.2f} %"
+        )
         off = 100 * (item["j"] / exact["j"] - 1)
         print(f"{item['name']:<16} J {off:+.3f} %{of_formula}  {'; '.join(found) or 'ok'}")
     print(f"{len(items) - failed} passed, {failed} failed")
