@@ -1,25 +1,36 @@
 //! Size and time of 1,000 beams, beside the same beams from truck-stepio.
 //!
-//! Run with `cargo test --release --test step_speed -- --ignored --nocapture`.
 //! With `BEAMWRIGHT_STEP_OUT` set to a folder the files stay there, and
 //! `tests/occt/time_read.py FOLDER` tells how long OCCT takes to read them.
 
-mod step_family;
-
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
+use beamwright::frame::{Beam, BeamAxes, BeamSection, BeamShape, Frame, Node, NodeId, NodeKind};
+use beamwright::joint::{JointKind, joints};
+use beamwright::output::assembly::assembly;
 use beamwright::output::step::{self, Body, Document, Loft, Outline, Part, Path, Property, Value};
-use nalgebra::{Isometry3, Vector2, Vector3};
-use step_family::{document, freeform};
+use beamwright::section::{Profile, Shape};
+use criterion::{Criterion, Throughput};
+use nalgebra::{Isometry3, Point3, Unit, Vector2, Vector3};
+
+use crate::step_family::{document, freeform};
 
 const COUNT: usize = 1000;
 
 /// 1,000 beams, all of different length, each with its place.
 fn beams(name: &'static str, section: impl Fn() -> (Outline, Vec<Outline>)) -> Document {
+    of_lengths(COUNT, name, section)
+}
+
+/// 1,000 beams of so many lengths.
+fn of_lengths(
+    lengths: usize,
+    name: &'static str,
+    section: impl Fn() -> (Outline, Vec<Outline>),
+) -> Document {
     let (outer, holes) = section();
     let beam = |i: usize| {
-        let length = 100.0 + i as f64 / 7.0;
+        let length = 100.0 + (i % lengths) as f64 / 7.0;
         Part {
             name: format!("B{i:04} {name}"),
             product: format!("{name} L={length:.1} mm"),
@@ -46,6 +57,7 @@ fn kinds() -> Vec<Document> {
     let rounded = |w, h, r| Outline::Path(Path::rounded_rectangle(w, h, r).unwrap());
     vec![
         beams("round", || solid(Outline::circle(5.0))),
+        of_lengths(100, "round in 100 lengths", || solid(Outline::circle(5.0))),
         beams("tube", || (Outline::circle(5.0), vec![Outline::circle(4.0)])),
         beams("rectangle", || solid(rectangle())),
         beams("box", || (rounded(12.0, 8.0, 1.5), vec![rounded(10.0, 6.0, 0.5)])),
@@ -77,44 +89,70 @@ fn furnished() -> Document {
     document
 }
 
-#[test]
-#[ignore = "a measurement, for a release build"]
-fn thousand_beams_are_written_in_a_blink() {
+/// The way of the program: 1,000 beams of a frame, all of different length, to their assembly.
+fn frame() -> Frame {
+    let bar = Profile::new(Shape::Round { d: 10.0 }).expect("a bar");
+    let properties = bar.properties().expect("a bar");
+    let mut frame = Frame::default();
+    for i in 0..COUNT {
+        let start = Point3::from(place(i).translation.vector);
+        let axis = Unit::new_normalize(place(i) * Vector3::z());
+        let length = 100.0 + 2.0 * i as f64;
+        let end = start + axis.into_inner() * length;
+        let node = |position| Node { position, kind: NodeKind::End };
+        frame.nodes.extend([node(start), node(end)]);
+        frame.beams.push(Beam {
+            ends: [2 * i, 2 * i + 1].map(NodeId::new),
+            passes: Vec::new(),
+            branch: i as u32,
+            axes: BeamAxes::along(axis),
+            length,
+            cut_length: length,
+            section: BeamSection::default(),
+            measured: None,
+            assumed_area: properties.area,
+            shape: BeamShape::assumed(bar.clone(), properties),
+        });
+    }
+    frame
+}
+
+/// Writes the beams of every kind, and the plainest also by truck-stepio.
+pub fn files(criterion: &mut Criterion) {
     let folder = std::env::var_os("BEAMWRIGHT_STEP_OUT").map(PathBuf::from);
     let save = |name: &str, text: &[u8]| {
+        println!("{name}: {:.2} MB", text.len() as f64 / 1e6);
         if let Some(folder) = &folder {
-            std::fs::create_dir_all(folder).unwrap();
-            std::fs::write(folder.join(name), text).unwrap();
+            std::fs::create_dir_all(folder).expect("a folder for the files");
+            std::fs::write(folder.join(format!("{name}.step")), text).expect("room for the file");
         }
     };
+    let mut group = criterion.benchmark_group("1,000 beams");
+    group.sample_size(10).throughput(Throughput::Elements(COUNT as u64));
     for document in kinds().into_iter().chain([furnished()]) {
-        let (text, time) = best_of_five(|| {
+        let written = || {
             let mut text = Vec::new();
-            step::write(&document, &mut text).unwrap();
-            text
-        });
-        report(&document.name, text.len(), time);
-        save(&format!("{}.step", document.name), &text);
+            step::write(&document, &mut text).map(|()| text)
+        };
+        group.bench_function(&document.name, |b| b.iter(written));
+        save(&document.name, &written().expect("sound beams"));
     }
+    let frame = frame();
+    let (joints, _) = joints(&frame, &[], JointKind::None);
+    let written = || {
+        let built = assembly("frame", &frame, &joints, 7850.0).expect("sound beams");
+        let mut text = Vec::new();
+        step::write(&built.document, &mut text).map(|()| text)
+    };
+    group.bench_function("frame", |b| b.iter(written));
+    save("frame", &written().expect("sound beams"));
     for (name, solid) in [("round", truck::round as fn(f64) -> _), ("rectangle", truck::rectangle)]
     {
-        let (text, time) = best_of_five(|| truck::file(solid).into_bytes());
-        report(&format!("{name} by truck-stepio"), text.len(), time);
-        save(&format!("truck_{name}.step"), &text);
+        let name = format!("{name} by truck-stepio");
+        group.bench_function(&name, |b| b.iter(|| truck::file(solid)));
+        save(&name, truck::file(solid).as_bytes());
     }
-}
-
-fn report(name: &str, bytes: usize, time: Duration) {
-    println!("{name:28} {:6.2} MB {:7.1} ms", bytes as f64 / 1e6, time.as_secs_f64() * 1e3);
-}
-
-fn best_of_five(run: impl Fn() -> Vec<u8>) -> (Vec<u8>, Duration) {
-    let timed = || {
-        let start = Instant::now();
-        let text = run();
-        (text, start.elapsed())
-    };
-    (0..5).map(|_| timed()).min_by_key(|(_, time)| *time).unwrap()
+    group.finish();
 }
 
 /// The same beams as truck models and truck-stepio writes them.
