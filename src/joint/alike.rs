@@ -366,6 +366,20 @@ mod tests {
     }
 
     #[test]
+    fn mirror_images_of_a_flat_lean_to_other_sides() {
+        let beams = vec![
+            beam(&FLAT, 100.0, [[0.5, 0.3], [0.0; 2]]),
+            beam(&FLAT, 100.0, [[0.5, -0.3], [0.0; 2]]),
+            beam(&FLAT, 100.0, [[0.0; 2], [-0.5, 0.3]]),
+        ];
+        let leans: Vec<[f64; 2]> = beams.iter().map(|b| b.1.leans).collect();
+        let lean = f64::atan2(0.3, 0.5);
+        assert!((leans[0][0] - lean).abs() < 1e-12 && (leans[1][0] + lean).abs() < 1e-12);
+        assert!((leans[2][1] - lean).abs() < 1e-12);
+        assert_eq!(kinds(beams), [0, 1, 0]);
+    }
+
+    #[test]
     fn an_angle_is_itself_end_for_end_only_where_its_legs_are_equal() {
         let angle = |h: f64| Shape::L { b: 40.0, h, t: 4.0, r_1: 0.0, r_2: 0.0 };
         let pair = |h: f64| {

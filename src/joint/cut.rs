@@ -54,6 +54,9 @@ pub struct CutBeam {
     /// the same way (a parallelogram), π where they lean towards each other (a trapezium); positive
     /// is clockwise as seen along the beam, from either end.
     pub twist: f64,
+    /// Direction in which each cut rises, rad, from axis y of the profile: clockwise as seen along
+    /// the beam from that end, the far end turned up about y; 0 for a square cut.
+    pub leans: [f64; 2],
 }
 
 impl CutBeam {
@@ -75,13 +78,14 @@ impl CutBeam {
             axis_length,
             length: high - low,
             twist: twist(start, end),
+            leans: leans(start, end),
         })
     }
 
     /// The beam cut square at its nodes.
     pub(super) fn square(beam: &Beam) -> Self {
         let length = beam.cut_length;
-        Self { ends: [EndCut::SQUARE; 2], axis_length: length, length, twist: 0.0 }
+        Self { ends: [EndCut::SQUARE; 2], axis_length: length, length, twist: 0.0, leans: [0.0; 2] }
     }
 }
 
@@ -103,6 +107,12 @@ fn twist(start: [f64; 2], end: [f64; 2]) -> f64 {
     let twist = cross.atan2(dot);
     // Half a turn either way is the same.
     if twist < SQUARE_ENOUGH - PI { -twist } else { twist }
+}
+
+/// Directions of the rises: the first as it is, the second after half a turn of the beam about y.
+fn leans([y, z]: [f64; 2], [far_y, far_z]: [f64; 2]) -> [f64; 2] {
+    let direction = |y: f64, z: f64| if y == 0.0 && z == 0.0 { 0.0 } else { z.atan2(y) };
+    [direction(y, z), direction(-far_y, far_z)]
 }
 
 fn range(values: &[f64]) -> [f64; 2] {

@@ -36,7 +36,7 @@ def cut_list(page: Page, name: str, table: Path, listed: Path) -> None:
     pieces = [dict(zip(lines[0], line)) for line in lines[1 : ends[0]]]
     wanted = [[piece[column].removeprefix("'") for column in COLUMNS] for piece in pieces]
     check(texts(page, "#pieces tbody tr") == wanted, f"{name}: {len(wanted)} pieces as in the CSV")
-    totals = [[line[k] for k in (3, 5, 2, 7, 14, 15)] for line in lines[ends[0] + 2 : ends[1]]]
+    totals = [[line[k] for k in (3, 5, 2, 7, 15, 16)] for line in lines[ends[0] + 2 : ends[1]]]
     totals[-1][0] = "all"
     check(texts(page, "#totals :is(tbody, tfoot) tr") == totals, f"{name}: totals as in the CSV")
 

@@ -19,6 +19,7 @@ const PIECES: [&str; COLUMNS] = [
     "angle_1_deg",
     "angle_2_deg",
     "twist_deg",
+    "lean_deg",
     "area_mm2",
     "unit_mass_kg",
     "mass_kg",
@@ -26,10 +27,10 @@ const PIECES: [&str; COLUMNS] = [
     "branch",
 ];
 
-const COLUMNS: usize = 17;
+const COLUMNS: usize = 18;
 
 /// What the columns mean.
-const LEGEND: [(&str, &str); 9] = [
+const LEGEND: [(&str, &str); 10] = [
     ("mark", "beams cut like this, as in the STEP file, to a tenth of their radius"),
     ("length_mm", "to saw off a bar, from the farthest corner to the farthest"),
     ("axis_length_mm", "along the axis between the cuts"),
@@ -38,6 +39,7 @@ const LEGEND: [(&str, &str); 9] = [
         "twist_deg",
         "turn between the cuts about the axis; 0 a parallelogram, 180 a trapezium, + clockwise",
     ),
+    ("lean_deg", "direction in which cut 1 rises, from axis y of the profile, + clockwise"),
     ("area_mm2", "of the profile"),
     ("unit_mass_kg", "of one piece; mass_kg of all"),
     ("unit_surface_m2", "to paint on one piece, without the cuts"),
@@ -62,6 +64,7 @@ pub(super) fn write(list: &CutList, out: &mut dyn Write) -> io::Result<()> {
             p.angle_1_deg.to_string(),
             p.angle_2_deg.to_string(),
             p.twist_deg.to_string(),
+            p.lean_deg.to_string(),
             p.area_mm2.to_string(),
             p.unit_mass_kg.to_string(),
             p.mass_kg.to_string(),
@@ -86,8 +89,8 @@ fn totals(list: &CutList, table: &mut Table<'_>) -> io::Result<()> {
         row[3] = text(&t.profile);
         row[5] = text(&t.standard);
         row[7] = format!("{:.3}", t.length_mm);
-        row[14] = format!("{:.6}", t.mass_kg);
-        row[15] = format!("{:.6}", t.surface_m2);
+        row[15] = format!("{:.6}", t.mass_kg);
+        row[16] = format!("{:.6}", t.surface_m2);
         table.row(row)?;
     }
     let all = list.total();
@@ -95,8 +98,8 @@ fn totals(list: &CutList, table: &mut Table<'_>) -> io::Result<()> {
     row[0] = all.profile;
     row[2] = all.quantity.to_string();
     row[7] = format!("{:.3}", all.length_mm);
-    row[14] = format!("{:.6}", all.mass_kg);
-    row[15] = format!("{:.6}", all.surface_m2);
+    row[15] = format!("{:.6}", all.mass_kg);
+    row[16] = format!("{:.6}", all.surface_m2);
     table.row(row)
 }
 

@@ -152,6 +152,7 @@ mod tests {
             angle_1_deg: 0.0,
             angle_2_deg: 0.0,
             twist_deg: 0.0,
+            lean_deg: 0.0,
             area_mm2: 314.0,
             unit_mass_kg: 1.0,
             mass_kg: 1.0,

@@ -6,6 +6,7 @@ use super::CutListParams;
 use crate::frame::{Beam, Frame};
 use crate::joint::{Alike, CutBeam, Joints, alike};
 use crate::output::assembly::mark;
+use crate::section::matching::folded_angle;
 use crate::section::properties::{Contours, signed_area};
 
 /// Points on a quarter of a curved outline of a tapered beam: its area is right to 0.1 %.
@@ -39,6 +40,10 @@ pub struct Piece {
     /// Turn of the second cut against the first about the axis, −180 to 180; 0 where both lean the
     /// same way, positive clockwise as seen along the piece.
     pub twist_deg: f64,
+    /// Direction in which the first cut rises, from axis y of the profile, clockwise as seen along
+    /// the piece from there; 0 for a round one, within half a turn for one that is the same after
+    /// it. Pieces that are mirror images differ in its sign or in that of the twist.
+    pub lean_deg: f64,
     /// Area of the profile, mm².
     pub area_mm2: f64,
     /// Mass of one, kg.
@@ -84,6 +89,7 @@ pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> 
 fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
     let shape = &beam.shape;
     let [a, b] = [&cut.ends[0], &cut.ends[1]].map(|e| rounded(e.angle.to_degrees(), 1));
+    let lean = folded_angle(cut.leans[usize::from(b > a)], shape.profile.shape.symmetry());
     let volume = mean_area(beam) * cut.axis_length;
     Piece {
         piece: String::new(),
@@ -99,6 +105,7 @@ fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
         angle_1_deg: a.max(b),
         angle_2_deg: a.min(b),
         twist_deg: rounded(cut.twist.to_degrees(), 1),
+        lean_deg: rounded(lean.to_degrees(), 1),
         area_mm2: rounded(shape.properties.area, 3),
         unit_mass_kg: rounded(volume * params.material.density * 1e-9, 6),
         mass_kg: 0.0,
@@ -128,5 +135,6 @@ fn mean_area(beam: &Beam) -> f64 {
 
 fn rounded(x: f64, digits: i32) -> f64 {
     let scale = 10f64.powi(digits);
-    (x * scale).round() / scale
+    // Never −0.
+    (x * scale).round() / scale + 0.0
 }

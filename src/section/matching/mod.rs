@@ -42,6 +42,7 @@ pub use choice::{MatchMode, ProfileChoice, UnknownChoice};
 pub use equal::{Equalized, equalize};
 pub use fewest::fewest_profiles;
 pub use reduce::{Reduction, Requirement, reduce_profiles};
+pub(crate) use target::folded_angle;
 pub use target::{MatchErrors, MatchTarget};
 
 /// A matched profile and how well it fits.
