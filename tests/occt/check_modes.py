@@ -35,9 +35,6 @@ EXACT = 1e-9
 # OCCT lays oblique cuts of cones and bores through points, and integrates up to there; corners of
 # non-design parts are those of a mesh, off their planes by single precision.
 CUT = 1e-6
-# A freeform outline is written over rounded parameters, for smaller files; the area in the list is
-# that of the curve through the same points before.  The stated volume has the rounded curve.
-OUTLINE = 1e-5
 
 
 def modes():
@@ -68,7 +65,7 @@ def faults_of_leaf(leaf: Leaf, mode):
         yield f"volume {found}, {off:.1e} off the stated one"
     if loft == "constant" and joints == "none" and leaf.name.startswith("B"):
         meant = property_of(leaf, "area") * property_of(leaf, "length")
-        if abs(found / meant - 1) > (OUTLINE if "Freeform" in leaf.name else EXACT):
+        if abs(found / meant - 1) > EXACT:
             yield f"volume {found}, but area times length is {meant}"
 
 

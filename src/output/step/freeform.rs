@@ -4,9 +4,9 @@
 //! growing about as the distance from point to point does, which keeps it from
 //! bulging where points are unevenly spaced.  It is held exactly as it is
 //! written to the file: as a clamped cubic B-spline with simple inner knots.
-//! To keep files small, parameters are rounded to a few decimals before the
-//! spline is solved, and control points to eight digits after it: the curve
-//! passes within 1e-8 of its size of the given points.  What is exposed
+//! To keep files small, parameters are rounded to ten decimals before the
+//! spline is solved, and control points to eleven digits after it: the area is
+//! that of the spline through the given points to about 1e-10.  What is exposed
 //! here, is drawn, and is integrated is that same rounded curve.
 
 use nalgebra::{Point2, Vector2};
@@ -14,8 +14,15 @@ use nalgebra::{Point2, Vector2};
 use super::error::BodyError;
 use super::spline::{clamped_ordinates, closed_second_derivatives};
 
-/// Breaks closer than this, in the unit parameter, are one break.
-const SAME_BREAK: f64 = 1e-12;
+/// Decimals of a parameter.
+const DECIMALS: i32 = 10;
+
+/// Digits of the largest coordinate of a control point.
+const DIGITS: i32 = 11;
+
+/// Breaks closer than this, in the unit parameter, are one break: those of a curve and of the same
+/// curve at another scale may be rounded to different sides.
+const SAME_BREAK: f64 = 3e-10;
 
 /// A closed C² cubic B-spline in the plane of a section.
 ///
@@ -213,25 +220,15 @@ fn chord_fractions(points: &[Point2<f64>]) -> Result<Vec<f64>, BodyError> {
     Ok(reached.into_iter().map(|length| length / whole).collect())
 }
 
-/// Rounds parameters to the fewest decimals that keep every step within 2 %.
+/// Rounds parameters, the first and last of which are 0 and 1.
 fn rounded(parameters: &[f64]) -> Vec<f64> {
-    for decimals in 2..9 {
-        let short: Vec<f64> = parameters.iter().map(|&t| round_to(t, decimals)).collect();
-        let close = short.windows(2).zip(parameters.windows(2)).all(|(s, p)| {
-            let (step, wanted) = (s[1] - s[0], p[1] - p[0]);
-            (step - wanted).abs() <= 0.02 * wanted
-        });
-        if close {
-            return short;
-        }
-    }
-    parameters.to_vec()
+    parameters.iter().map(|&t| round_to(t, DECIMALS)).collect()
 }
 
-/// Decimals that leave eight digits to the largest coordinate.
+/// Decimals that leave so many digits to the largest coordinate.
 fn decimals_of(points: &[Point2<f64>]) -> i32 {
     let size = points.iter().map(|p| p.coords.amax()).fold(f64::MIN_POSITIVE, f64::max);
-    7 - size.log10().floor() as i32
+    DIGITS - 1 - size.log10().floor() as i32
 }
 
 /// Rounds to a number of decimals, which may be negative.
@@ -314,7 +311,7 @@ mod tests {
     fn rounding_keeps_few_decimals() {
         assert_eq!(round_to(12.345_678_9, 3), 12.346);
         assert_eq!(round_to(123_456.0, -2), 123_500.0);
-        let t = rounded(&[0.0, 0.3333333, 0.6666667, 1.0]);
-        assert_eq!(t, [0.0, 0.33, 0.67, 1.0]);
+        let t = rounded(&[0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]);
+        assert_eq!(t, [0.0, 0.333_333_333_3, 0.666_666_666_7, 1.0]);
     }
 }
