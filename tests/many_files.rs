@@ -23,8 +23,11 @@ fn one_bad_file_does_not_stop_the_rest() -> Outcome {
     let done = beamwright(folder.path(), &words)?;
     assert_eq!(done.status.code(), Some(1));
     let error = String::from_utf8(done.stderr)?;
-    assert!(error.contains("error: bad.obj: "), "{error}");
-    assert!(error.contains("1 of 3 meshes failed: bad.obj"), "{error}");
+    let lines: Vec<&str> = error.lines().collect();
+    let [first, last] = lines[..] else { panic!("{error}") };
+    assert!(first.starts_with("error: cannot read bad.obj: "), "{error}");
+    assert_eq!(first.matches("bad.obj").count(), 1, "{error}");
+    assert_eq!(last, "error: 1 of 3 meshes failed: bad.obj");
     for name in ["single_bar.step", "single_bar.csv", "y_form.step", "y_form.skeleton.json"] {
         assert!(folder.path().join("out").join(name).is_file(), "{name}");
     }
@@ -36,8 +39,86 @@ fn two_meshes_of_one_name_are_refused_before_any_work() -> Outcome {
     let folder = tempfile::tempdir()?;
     let bar = sample("single_bar.obj");
     let bar = bar.to_string_lossy();
-    let done = beamwright(folder.path(), &["reconstruct", &bar, &bar, "--out-dir", "out"])?;
+    std::fs::create_dir(folder.path().join("old"))?;
+    std::fs::copy(&*bar, folder.path().join("old/single_bar.obj"))?;
+    let words = ["reconstruct", &bar, "old/single_bar.obj", "--out-dir", "out"];
+    let done = beamwright(folder.path(), &words)?;
     assert_eq!(done.status.code(), Some(2));
+    let error = String::from_utf8(done.stderr)?;
+    let both = format!("error: {bar} and old/single_bar.obj would both be written to ");
+    assert!(error.starts_with(&both) && error.lines().count() == 1, "{error}");
+    assert!(!folder.path().join("out").exists());
+    Ok(())
+}
+
+/// All outputs of `reconstruct`, by their endings.
+const ENDINGS: [&str; 14] = [
+    "--cut-list",
+    ".json",
+    "--skeleton",
+    ".skeleton.ply",
+    "--sections",
+    ".csv",
+    "--export",
+    ".glb",
+    "--export",
+    ".dxf",
+    "--picture",
+    ".svg",
+    "--report",
+    ".html",
+];
+
+#[test]
+fn an_output_given_by_its_ending_goes_beside_the_step_file() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let [bar, y] = [sample("single_bar.obj"), sample("y_form.obj")];
+    let (bar, y) = (bar.to_string_lossy(), y.to_string_lossy());
+    let one = ["reconstruct", &bar, "-q", "-o", "v1.2.step"];
+    let many = ["reconstruct", &bar, &y, "-q", "--out-dir", "out"];
+    for words in [&one[..], &many] {
+        let done = beamwright(folder.path(), &[words, &ENDINGS].concat())?;
+        assert!(done.status.success(), "{done:?}");
+    }
+    let endings = ENDINGS.iter().filter_map(|word| word.strip_prefix('.')).chain(["step"]);
+    for ending in endings {
+        for stem in ["v1.2", "out/single_bar", "out/y_form"] {
+            let name = format!("{stem}.{ending}");
+            assert!(folder.path().join(&name).is_file(), "{name}");
+        }
+    }
+    assert_eq!(std::fs::read_dir(folder.path().join("out"))?.count(), 16);
+    Ok(())
+}
+
+#[test]
+fn one_file_for_many_meshes_is_refused_before_any_work() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for (option, file, ending) in [
+        ("--report", "r.html", ".html"),
+        ("--picture", "png", ".png"),
+        ("--export", "./.glb", ".glb"),
+        ("--cut-list", "lists/all.csv", ".csv"),
+    ] {
+        let words = ["reconstruct", "a.obj", "b.obj", "--out-dir", "out", option, file];
+        let done = beamwright(folder.path(), &words)?;
+        assert_eq!(done.status.code(), Some(2), "{file}");
+        let error = String::from_utf8(done.stderr)?;
+        let told = format!(
+            "error: {option} {file} is one file for many meshes: with --out-dir give its ending \
+             alone, {option} {ending}\n"
+        );
+        assert_eq!(error, told);
+    }
+    for (words, told) in [
+        (["--picture", ".jpg"], "error: the picture out/a.jpg must end in .png or .svg\n"),
+        (["--sections", ".csv"], "error: two outputs of a.obj would be written to out/a.csv\n"),
+    ] {
+        let batch = ["reconstruct", "a.obj", "b.obj", "--out-dir", "out"];
+        let done = beamwright(folder.path(), &[&batch[..], &words].concat())?;
+        assert_eq!(done.status.code(), Some(2), "{words:?}");
+        assert_eq!(String::from_utf8(done.stderr)?, told);
+    }
     assert!(!folder.path().join("out").exists());
     Ok(())
 }
@@ -73,7 +154,7 @@ const CHOSEN: [(&str, &str); 5] = [
          --max-deviation 0.7 --continuous --profile catalogue:CHS,IPE --match area --loft taper \
          --joints trim --max-profiles 3 --catalogue own.csv --material S355 \
          --elastic-modulus 70000 --poisson 0.33 --stock-length 6000 --kerf 3 --no-non-design \
-         --density 2700 --json --strict",
+         --density 2700 --json --strict --report .html --picture .png --picture .svg",
         "verbose",
     ),
     ("skeleton in.obj -o out.json --unit in --step 2.0 --orientation global --json", "quiet"),
@@ -89,8 +170,7 @@ const CHOSEN: [(&str, &str); 5] = [
 #[test]
 fn every_option_stands_in_the_file_and_comes_back() -> Outcome {
     // What one run reads and writes is no part of a file for many.
-    let of_one_run = "config write-config output out-dir cut-list skeleton sections export picture \
-                      report compare non-design help version";
+    let of_one_run = "config write-config output out-dir compare non-design help version";
     let folder = tempfile::tempdir()?;
     for (words, global) in CHOSEN {
         let flag = format!("--{global}");

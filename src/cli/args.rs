@@ -1,6 +1,6 @@
 //! What can be typed; one flag for one parameter field.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use beamwright::frame::{FrameParams, Loft, ProfileParams};
@@ -70,7 +70,8 @@ Examples:
   beamwright reconstruct part.stl --non-design pads.stl -o part.step --cut-list part.csv
   beamwright reconstruct part.ply -o part.step --skeleton part.json --json
   beamwright reconstruct part.ply -o part.step --export part.mlp      (opens in MeshLab)
-  beamwright reconstruct *.stl --out-dir beams --joints trim
+  beamwright reconstruct part.obj -o part.step --report .html         (part.html, for a browser)
+  beamwright reconstruct *.stl --out-dir beams --report .html --picture .png
   beamwright reconstruct part.obj -o part.step --config shop.toml";
 
 const SKELETON_EXAMPLES: &str = "\
@@ -309,12 +310,16 @@ pub(crate) enum LoftArg {
 #[command(next_help_heading = "Output")]
 pub(crate) struct OutputArgs {
     /// STEP file with one named solid a beam
+    ///
+    /// Any other output may be given by its ending alone: `--report .html` goes beside the STEP file,
+    /// under its name.
     #[arg(short, long, value_name = "OUT.step", required_unless_present = "out_dir")]
     pub(crate) output: Option<PathBuf>,
 
     /// Folder for the results of many meshes, each under its own name
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["output", "cut_list", "skeleton",
-        "sections", "export", "picture", "report"])]
+    ///
+    /// Other outputs are then given by their endings alone: `--report .html --picture .png`.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["output", "compare"])]
     pub(crate) out_dir: Option<PathBuf>,
 
     /// Cut list: .csv .json (default: beside the STEP file, ending .csv)
@@ -378,7 +383,61 @@ pub(crate) struct OutputArgs {
     pub(crate) density: f64,
 }
 
+impl ReconstructArgs {
+    /// The same for one mesh: its STEP file, and beside it all that is given by its ending alone.
+    pub(crate) fn of_one(&self, input: &Path, step: PathBuf) -> Self {
+        let mut one = self.clone();
+        one.input.input = input.to_owned();
+        for (_, path) in one.output.others_mut() {
+            if let Some(ending) = ending(path) {
+                *path = step.with_extension(ending);
+            }
+        }
+        one.output.output = Some(step);
+        one
+    }
+}
+
+/// `png` for a path that is nothing but `.png`.
+pub(crate) fn ending(path: &Path) -> Option<&str> {
+    let ending = path.to_str()?.strip_prefix('.')?;
+    (!ending.is_empty() && ending != "." && !ending.contains(['/', '\\'])).then_some(ending)
+}
+
 impl OutputArgs {
+    /// All outputs but the STEP file, each with its option.
+    fn others_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
+        let single = [
+            ("--cut-list", &mut self.cut_list),
+            ("--skeleton", &mut self.skeleton),
+            ("--sections", &mut self.sections),
+            ("--report", &mut self.report),
+        ];
+        let several = [("--export", &mut self.export), ("--picture", &mut self.picture)];
+        let single = single.into_iter().filter_map(|(option, path)| Some((option, path.as_mut()?)));
+        let several = several.into_iter().flat_map(|(option, all)| all.iter_mut().map(move |p| (option, p)));
+        single.chain(several)
+    }
+
+    /// Whether all outputs can be those of many meshes.
+    ///
+    /// # Errors
+    /// The first that names one file.
+    pub(crate) fn check_endings(&self) -> Result<(), Failure> {
+        let mut output = self.clone();
+        let Some((option, path)) = output.others_mut().find(|(_, path)| ending(path).is_none())
+        else {
+            return Ok(());
+        };
+        let wanted = path.extension().or(path.file_name()).unwrap_or_default();
+        Err(Failure::usage(format!(
+            "{option} {} is one file for many meshes: with --out-dir give its ending alone, \
+             {option} .{}",
+            path.display(),
+            wanted.display()
+        )))
+    }
+
     pub(crate) fn material(&self) -> Material {
         Material {
             name: self.material.clone(),
@@ -474,6 +533,16 @@ mod tests {
         assert_eq!(FrameParams::from(&args.frame), FrameParams::default());
         assert_eq!(ProfileParams::from(&args.frame), ProfileParams::default());
         assert_eq!(args.input.settings().labels.names, LabelParams::default().names);
+    }
+
+    #[test]
+    fn an_ending_is_a_dot_and_no_path() {
+        for (path, wanted) in [(".png", Some("png")), (".skeleton.ply", Some("skeleton.ply"))] {
+            assert_eq!(ending(Path::new(path)), wanted, "{path}");
+        }
+        for path in ["png", "a.png", "./.png", "../a.png", ".", "..", "", "/tmp/.png"] {
+            assert_eq!(ending(Path::new(path)), None, "{path}");
+        }
     }
 
     #[test]

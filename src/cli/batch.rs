@@ -1,61 +1,75 @@
 //! Many meshes into one folder: one bad file does not stop the rest.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::args::{GlobalArgs, ReconstructArgs};
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, interrupted};
-use super::reconstruct::run_one;
+use super::reconstruct::Job;
 
 /// Reconstructs every mesh; the results of `NAME.EXT` go to `folder/NAME.step` and beside it.
 ///
 /// # Errors
-/// A folder that cannot be made, or two meshes of one name. Otherwise, at the end, how many meshes
-/// failed, with the exit code of the first of them.
+/// An output that is not given by its ending, two files of one name, or a folder that cannot be
+/// made. Otherwise, at the end, how many meshes failed, with the exit code of the first of them.
 pub(crate) fn run(
     args: &ReconstructArgs,
     folder: &Path,
     global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
-    let inputs: Vec<&PathBuf> = std::iter::once(&args.input.input).chain(&args.more).collect();
-    let outputs = outputs(&inputs, folder)?;
+    args.output.check_endings()?;
+    let inputs = std::iter::once(&args.input.input).chain(&args.more);
+    let jobs: Vec<Job> = inputs
+        .map(|input| Job::new(args.of_one(input, step_in(folder, input))))
+        .collect::<Result<_, _>>()?;
+    check_names(&jobs)?;
     std::fs::create_dir_all(folder)
         .map_err(|e| Failure::input(format!("cannot make the folder {}: {e}", folder.display())))?;
-    let mut failed: Vec<(&PathBuf, Exit)> = Vec::new();
-    for (input, output) in inputs.iter().zip(outputs) {
-        let mut one = args.clone();
-        one.input.input = input.to_path_buf();
-        one.output.output = Some(output);
-        if let Err(Failure { exit, message }) = run_one(&one, global, progress) {
-            progress.finish();
-            eprintln!("error: {}: {message}", input.display());
-            failed.push((input, exit));
-        }
+    let count = jobs.len();
+    let mut failed: Vec<(String, Exit)> = Vec::new();
+    for job in jobs {
+        let input = job.input().display().to_string();
+        let end = job.run(global, progress);
         if interrupted() {
             return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
         }
+        if let Err(Failure { exit, message }) = end {
+            progress.finish();
+            // Most messages name the mesh themselves.
+            let of = if message.contains(&input) { String::new() } else { format!("{input}: ") };
+            eprintln!("error: {of}{message}");
+            failed.push((input, exit));
+        }
     }
     let Some(&(_, exit)) = failed.first() else { return Ok(Exit::Done) };
-    let names: Vec<String> = failed.iter().map(|(path, _)| path.display().to_string()).collect();
-    let message =
-        format!("{} of {} meshes failed: {}", names.len(), inputs.len(), names.join(", "));
+    let names: Vec<String> = failed.into_iter().map(|(input, _)| input).collect();
+    let message = format!("{} of {count} meshes failed: {}", names.len(), names.join(", "));
     Err(Failure { exit, message })
 }
 
-/// A STEP file for every mesh.
-fn outputs(inputs: &[&PathBuf], folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let mut outputs: Vec<PathBuf> = Vec::with_capacity(inputs.len());
-    for input in inputs {
-        let name = input.file_stem().unwrap_or_default();
-        let mut output = folder.join(name).into_os_string();
-        output.push(".step");
-        let output = PathBuf::from(output);
-        if outputs.contains(&output) {
+/// The STEP file of a mesh.
+fn step_in(folder: &Path, input: &Path) -> PathBuf {
+    let mut step = folder.join(input.file_stem().unwrap_or_default()).into_os_string();
+    step.push(".step");
+    step.into()
+}
+
+/// Whether every output has a name of its own.
+fn check_names(jobs: &[Job]) -> Result<(), Failure> {
+    let mut makers: BTreeMap<&Path, usize> = BTreeMap::new();
+    for (i, job) in jobs.iter().enumerate() {
+        for output in job.outputs() {
+            let Some(other) = makers.insert(output, i) else { continue };
             let shown = output.display();
-            return Err(Failure::usage(format!("two meshes would be written to {shown}")));
+            let [one, two] = [other, i].map(|k| jobs[k].input().display());
+            return Err(Failure::usage(if other == i {
+                format!("two outputs of {one} would be written to {shown}")
+            } else {
+                format!("{one} and {two} would both be written to {shown}")
+            }));
         }
-        outputs.push(output);
     }
-    Ok(outputs)
+    Ok(())
 }

@@ -17,26 +17,15 @@ use beamwright::output::{OutputFiles, check_target};
 use clap::{Arg, ArgAction, ArgMatches, Command, CommandFactory};
 use toml::{Table, Value};
 
-use super::args::Cli;
+use super::args::{Cli, ending};
 use super::exit::{Exit, Failure};
 
 /// Options that say what this one run reads and writes: no part of a file for many runs.
-const OF_ONE_RUN: [&str; 14] = [
-    "config",
-    "write-config",
-    "output",
-    "out-dir",
-    "cut-list",
-    "skeleton",
-    "sections",
-    "export",
-    "picture",
-    "report",
-    "compare",
-    "non-design",
-    "help",
-    "version",
-];
+const OF_ONE_RUN: [&str; 8] =
+    ["config", "write-config", "output", "out-dir", "compare", "non-design", "help", "version"];
+
+/// Options that are part of such a file where they name endings, and no files of one run.
+const OUTPUTS: [&str; 6] = ["cut-list", "skeleton", "sections", "export", "picture", "report"];
 
 /// What was typed, with the options of its `--config` put behind the subcommand.
 ///
@@ -103,6 +92,15 @@ fn words_of(arg: &Arg, name: &str, value: &Value) -> Result<Vec<OsString>, Strin
     }
 }
 
+/// Whether a value is one ending such as `.png` or several.
+fn is_endings(value: &Value) -> bool {
+    match value {
+        Value::String(text) => ending(Path::new(text)).is_some(),
+        Value::Array(values) => values.iter().all(is_endings),
+        _ => false,
+    }
+}
+
 /// Writes all options of a run, given or not, as a file for `--config`.
 ///
 /// # Errors
@@ -115,9 +113,13 @@ pub(crate) fn write(file: &Path, typed: &[OsString]) -> Result<Exit, Failure> {
     let mut text = format!("# Options of beamwright {name}; see beamwright {name} --help.\n");
     for arg in command.get_arguments().chain(all.get_arguments()) {
         let Some(long) = arg.get_long().filter(|l| !OF_ONE_RUN.contains(l)) else { continue };
+        let value = value_of(arg, matches);
+        if OUTPUTS.contains(&long) && value.as_ref().is_some_and(|v| !is_endings(v)) {
+            continue;
+        }
         let help = arg.get_help().map(|h| h.to_string()).unwrap_or_default();
         text += &format!("\n# {help}\n");
-        text += &match value_of(arg, matches) {
+        text += &match value {
             Some(value) => format!("{long} = {value}\n"),
             None => format!("# {long} =\n"),
         };

@@ -14,14 +14,15 @@ Examples:
   beamwright profiles                          the families and their standards
   beamwright profiles --family CHS,IPE
   beamwright profiles 60.3 --json
+  beamwright profiles hea 200
   beamwright profiles --catalogue own.csv --family own";
 
 /// Which profiles are listed.
 #[derive(Args, Debug)]
 pub(crate) struct ProfilesArgs {
-    /// Only profiles whose name holds this text
+    /// Only profiles with these words in name, family or standard
     #[arg(value_name = "TEXT")]
-    search: Option<String>,
+    search: Vec<String>,
 
     /// Only these families
     #[arg(long, value_name = "FAMILY", value_delimiter = ',')]
@@ -41,17 +42,19 @@ pub(crate) fn run(args: &ProfilesArgs) -> Result<Exit, Failure> {
     for file in &args.catalogue {
         all.extend(Catalogue::read(file).map_err(Failure::input)?);
     }
-    if args.search.is_none() && args.family.is_empty() && !args.json {
+    if args.search.is_empty() && args.family.is_empty() && !args.json {
         show::print(&families_table(&all))?;
         return Ok(Exit::Done);
     }
     if !args.family.is_empty() {
         all = all.of_families(&args.family).map_err(Failure::usage)?;
     }
-    let found = all.search(args.search.as_deref().unwrap_or_default());
+    let text = args.search.join(" ");
+    let found = all.search(&text);
     if found.is_empty() {
-        let text = args.search.as_deref().unwrap_or_default();
-        return Err(Failure::input(format!("no profile has \"{text}\" in its name")));
+        return Err(Failure::input(format!(
+            "no profile has \"{text}\" in its name, family or standard"
+        )));
     }
     show::print(&if args.json { json_listing(&found) } else { table(&found) })?;
     Ok(Exit::Done)

@@ -26,19 +26,54 @@ pub(crate) fn run(
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
     args.output.check()?;
-    match &args.output.out_dir {
-        Some(folder) => super::batch::run(args, folder, global, progress),
-        None => run_one(args, global, progress),
+    match (&args.output.out_dir, &args.output.output) {
+        (Some(folder), _) => super::batch::run(args, folder, global, progress),
+        (None, step) => {
+            let step = step.clone().unwrap_or_default();
+            Job::new(args.of_one(&args.input.input, step))?.run(global, progress)
+        }
     }
 }
 
-/// From one mesh to its beams.
-pub(crate) fn run_one(
+/// One mesh and what is made of it.
+pub(crate) struct Job {
+    args: ReconstructArgs,
+    targets: Targets,
+}
+
+impl Job {
+    /// Checks what is asked for, before any work.
+    ///
+    /// # Errors
+    /// An output whose ending is none of its formats.
+    pub(crate) fn new(args: ReconstructArgs) -> Result<Self, Failure> {
+        Ok(Self { targets: Targets::new(&args)?, args })
+    }
+
+    /// The mesh.
+    pub(crate) fn input(&self) -> &Path {
+        &self.args.input.input
+    }
+
+    /// Every file that is written.
+    pub(crate) fn outputs(&self) -> &[PathBuf] {
+        &self.targets.claimed
+    }
+
+    /// From the mesh to its beams.
+    pub(crate) fn run(self, global: &GlobalArgs, progress: &mut Progress) -> Result<Exit, Failure> {
+        let Self { args, targets } = self;
+        targets.check(&args)?;
+        reconstruct(&args, targets, global, progress)
+    }
+}
+
+fn reconstruct(
     args: &ReconstructArgs,
+    targets: Targets,
     global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
-    let targets = Targets::new(args)?;
     let mut settings = args.input.settings();
     settings.skeleton = (&args.march).into();
     settings.frame = (&args.frame).into();
@@ -89,7 +124,7 @@ struct Targets {
 }
 
 impl Targets {
-    /// Checks every target before the work begins.
+    /// What the endings of the outputs ask for.
     fn new(args: &ReconstructArgs) -> Result<Self, Failure> {
         let step = args.output.output.clone().unwrap_or_default();
         let is_step = step
@@ -113,7 +148,6 @@ impl Targets {
         all.extend(sections.iter().map(|(path, _)| path.clone()));
         all.extend(exports.iter().flat_map(Export::targets));
         all.extend(looks.targets());
-        targets::check(all.iter().map(PathBuf::as_path), &args.input, &args.frame.catalogue)?;
         Ok(Self {
             skeleton_format: skeleton_format(&skeleton)?,
             step,
@@ -126,6 +160,12 @@ impl Targets {
             exports,
             looks,
         })
+    }
+
+    /// Checks every target before the work begins.
+    fn check(&self, args: &ReconstructArgs) -> Result<(), Failure> {
+        let all = self.claimed.iter().map(PathBuf::as_path);
+        targets::check(all, &args.input, &args.frame.catalogue)
     }
 
     /// Checks the mesh file of non-design parts against what else is read and written.

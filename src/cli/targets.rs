@@ -26,7 +26,7 @@ pub(crate) fn check<'a>(
             return Err(Failure::usage(format!("the output {shown} is an input file")));
         }
         if places.contains(&place) {
-            return Err(Failure::usage(format!("{shown} is named twice")));
+            return Err(Failure::usage(format!("two outputs would be written to {shown}")));
         }
         places.push(place);
     }
