@@ -1,14 +1,12 @@
 //! What can be typed; one flag for one parameter field.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use beamwright::frame::{FrameParams, Loft, ProfileParams};
 use beamwright::joint::JointKind;
 use beamwright::mesh::LabelParams;
 use beamwright::mesh::label::DEFAULT_NAMES;
-use beamwright::output::cut_list::{CutListParams, LONGEST_BAR, Stock};
-use beamwright::output::material::Material;
 use beamwright::pipeline::Settings;
 use beamwright::section::{MatchMode, ProfileChoice};
 use beamwright::skeleton::{Orientation, SkeletonParams};
@@ -16,8 +14,9 @@ use beamwright_formats::{ReadOptions, Unit};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::evaluate::EvaluateArgs;
-use super::exit::Failure;
+use super::outputs::OutputArgs;
 use super::profiles::ProfilesArgs;
+use super::shop::ShopArgs;
 
 /// From a topology-optimized mesh to beams one can buy, cut and weld.
 #[derive(Debug, Parser)]
@@ -25,6 +24,7 @@ use super::profiles::ProfilesArgs;
     name = "beamwright",
     version,
     max_term_width = 100,
+    after_help = ENDS,
     propagate_version = true,
     args_override_self = true
 )]
@@ -47,22 +47,37 @@ pub(crate) enum Command {
     /// Measure skeletons: centeredness, topology, what lies outside
     #[command(after_help = super::evaluate::EXAMPLES, args_override_self = true)]
     Evaluate(EvaluateArgs),
+    /// Check a mesh: what was mended, labels per source, interface sections
+    #[command(after_help = INSPECT_EXAMPLES, args_override_self = true)]
+    Inspect(InspectArgs),
     /// List and search the profiles of the catalogues
-    #[command(after_help = super::profiles::EXAMPLES)]
+    #[command(after_help = super::profiles::EXAMPLES, args_override_self = true)]
     Profiles(ProfilesArgs),
-    /// Print the completions of a shell
+    /// Print the completions for a shell
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
-        /// The shell
+        /// The shell they are for
         shell: clap_complete::Shell,
     },
-    /// Print the manual page, or that of a subcommand
+    /// Print the manual page, or that of a command
+    #[command(after_help = MAN_EXAMPLES)]
     Man {
-        /// The subcommand
+        /// The command
         command: Option<String>,
     },
-    /// Check a mesh: what was mended, labels per source, interface sections
-    Inspect(InspectArgs),
 }
+
+const ENDS: &str = "\
+Examples:
+  beamwright reconstruct part.obj -o part.step        (and part.csv, part.skeleton.json)
+  beamwright reconstruct --help                       (all options of a command)
+
+Exit codes:
+  0  done
+  1  the input cannot be processed
+  2  wrong usage
+  3  --strict found a promise that does not hold
+  130  interrupted";
 
 const RECONSTRUCT_EXAMPLES: &str = "\
 Examples:
@@ -79,23 +94,39 @@ Examples:
   beamwright skeleton part.obj -o skeleton.json
   beamwright skeleton part.obj -o skeleton.ply      (opens in MeshLab)";
 
+const INSPECT_EXAMPLES: &str = "\
+Examples:
+  beamwright inspect part.stl --non-design pads.stl
+  beamwright inspect part.obj --json";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  beamwright completions bash > ~/.local/share/bash-completion/completions/beamwright
+  beamwright completions zsh > ~/.zfunc/_beamwright      (with ~/.zfunc in fpath)
+  beamwright completions fish > ~/.config/fish/completions/beamwright.fish";
+
+const MAN_EXAMPLES: &str = "\
+Examples:
+  beamwright man | man -l -
+  beamwright man reconstruct | man -l -";
+
 /// Flags of every subcommand.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Messages")]
 pub(crate) struct GlobalArgs {
-    /// No progress and no summary; only errors, and results asked for with --json
+    /// No progress bar and no summary; only errors, and results asked for with --json
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
 
-    /// The time of each stage and the files written, on standard error
+    /// Tell the time of each stage and the files written, on standard error
     #[arg(short, long, global = true, conflicts_with = "quiet")]
     pub(crate) verbose: bool,
 
-    /// Options from a file, one `name = value` a line; what is typed counts more
+    /// Take options from a file, one `name = value` a line; what is typed counts more
     #[arg(long, global = true, value_name = "FILE.toml")]
     pub(crate) config: Option<PathBuf>,
 
-    /// Write all options as they are to a file for --config, and end
+    /// Write the options typed, and the defaults of all others, to a file for --config, and end
     #[arg(long, global = true, value_name = "FILE.toml")]
     pub(crate) write_config: Option<PathBuf>,
 
@@ -125,9 +156,11 @@ pub(crate) struct ReconstructArgs {
     #[command(flatten)]
     pub(crate) output: OutputArgs,
     #[command(flatten)]
+    pub(crate) shop: ShopArgs,
+    #[command(flatten)]
     pub(crate) result: ResultArgs,
 
-    /// Further meshes, with --out-dir
+    /// Further meshes, where --out-dir is given
     #[arg(value_name = "IN", requires = "out_dir", help_heading = "Input")]
     pub(crate) more: Vec<PathBuf>,
 }
@@ -163,7 +196,8 @@ pub(crate) struct ResultArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// End with exit code 3 when a promise does not hold (points outside, wrong topology)
+    /// End with exit code 3, and write nothing, when a promise does not hold (points outside, wrong
+    /// topology)
     #[arg(long)]
     pub(crate) strict: bool,
 }
@@ -183,11 +217,11 @@ pub(crate) struct InputArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) non_design: Vec<PathBuf>,
 
-    /// Box in mm whose faces are non-design; may be repeated
+    /// Box in which all faces are non-design, two opposite corners in mm; may be repeated
     #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1", allow_hyphen_values = true)]
     pub(crate) non_design_box: Vec<Corners>,
 
-    /// Name of a group, material or solid that is non-design, with * for anything
+    /// Name of a group, material or solid that is non-design, with * for anything; may be repeated
     #[arg(long, value_name = "PATTERN", default_values_t = DEFAULT_NAMES.map(String::from))]
     pub(crate) non_design_name: Vec<String>,
 }
@@ -218,11 +252,11 @@ pub(crate) struct MarchArgs {
     #[arg(long, value_name = "FRAME", default_value = "local")]
     pub(crate) orientation: OrientationArg,
 
-    /// Distance between skeletal points, in mean strut radii
+    /// Distance between skeletal points, in mean strut radii; smaller follows bends more closely
     #[arg(long, value_name = "RADII", default_value_t = SkeletonParams::default().step)]
     pub(crate) step: f64,
 
-    /// Growth of the box at which a junction begins
+    /// How much wider than the branch the box gets before a junction is seen
     #[arg(long, value_name = "RATIO", default_value_t = SkeletonParams::default().width_ratio)]
     pub(crate) width_ratio: f64,
 }
@@ -251,7 +285,8 @@ pub(crate) struct FrameArgs {
     #[arg(long, value_name = "CHOICE", default_value = "auto")]
     pub(crate) profile: ProfileChoice,
 
-    /// What must agree: stiffness, area, not-weaker
+    /// In what a profile equals the measured section: stiffness, area, or not-weaker (in nothing
+    /// less)
     #[arg(long = "match", value_name = "MODE", default_value = "stiffness")]
     pub(crate) match_mode: MatchMode,
 
@@ -263,7 +298,7 @@ pub(crate) struct FrameArgs {
     #[arg(long, value_name = "KIND", default_value = "none")]
     pub(crate) joints: JointArg,
 
-    /// Most different profiles over the whole frame, of all that --profile allows
+    /// At most so many different profiles in the whole frame, of all that --profile allows
     #[arg(long, value_name = "N", allow_negative_numbers = true,
         value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) max_profiles: Option<u32>,
@@ -304,163 +339,6 @@ pub(crate) enum LoftArg {
     Taper,
     /// Through several sections
     Multi,
-}
-
-#[derive(Args, Clone, Debug)]
-#[command(next_help_heading = "Output")]
-pub(crate) struct OutputArgs {
-    /// STEP file with one named solid a beam
-    ///
-    /// Any other output may be given by its ending alone: `--report .html` goes beside the STEP file,
-    /// under its name.
-    #[arg(short, long, value_name = "OUT.step", required_unless_present = "out_dir")]
-    pub(crate) output: Option<PathBuf>,
-
-    /// Folder for the results of many meshes, each under its own name
-    ///
-    /// Other outputs are then given by their endings alone: `--report .html --picture .png`.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["output", "compare"])]
-    pub(crate) out_dir: Option<PathBuf>,
-
-    /// Cut list: .csv .json (default: beside the STEP file, ending .csv)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) cut_list: Option<PathBuf>,
-
-    /// Skeleton: .json .obj .ply .cg .swc (default: beside the STEP file, ending .skeleton.json)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) skeleton: Option<PathBuf>,
-
-    /// Section properties at every skeletal point and along every beam: .json .csv
-    #[arg(long, value_name = "FILE")]
-    pub(crate) sections: Option<PathBuf>,
-
-    /// What else to write, by extension: .mlp (MeshLab project with its layers), .glb (3D scene),
-    /// .dxf (axes), .ifc (IFC4 members), .inp (CalculiX beams); may be repeated
-    #[arg(long, value_name = "FILE")]
-    pub(crate) export: Vec<PathBuf>,
-
-    /// Picture of mesh and beams: .png .svg; may be repeated
-    #[arg(long, value_name = "FILE")]
-    pub(crate) picture: Vec<PathBuf>,
-
-    /// Report to look at in a browser: one .html file that needs no network
-    #[arg(long, value_name = "FILE.html")]
-    pub(crate) report: Option<PathBuf>,
-
-    /// Skeleton of another program to hold against ours in the report; may be repeated
-    #[arg(long, value_name = "SKELETON", requires = "report")]
-    pub(crate) compare: Vec<PathBuf>,
-
-    /// Name of the material, as printed in the cut list
-    #[arg(long, value_name = "NAME", default_value = "steel")]
-    pub(crate) material: String,
-
-    /// Elastic modulus for the CalculiX model, MPa (steel: 210000, aluminium: 70000)
-    #[arg(long, value_name = "MPA", allow_negative_numbers = true,
-        default_value_t = Material::default().elastic_modulus)]
-    pub(crate) elastic_modulus: f64,
-
-    /// Poisson's ratio for the CalculiX model
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true,
-        default_value_t = Material::default().poisson)]
-    pub(crate) poisson: f64,
-
-    /// Lay the pieces into stock bars of this length, mm
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
-    pub(crate) stock_length: Option<f64>,
-
-    /// Width of a saw cut between pieces of a stock bar, mm
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, default_value_t = 2.0)]
-    pub(crate) kerf: f64,
-
-    /// Leave the non-design parts out of the STEP file
-    #[arg(long)]
-    pub(crate) no_non_design: bool,
-
-    /// Density for the masses, kg/m³ (steel: 7850, aluminium: 2700)
-    #[arg(long, value_name = "KG/M3", allow_negative_numbers = true,
-        default_value_t = Material::default().density)]
-    pub(crate) density: f64,
-}
-
-impl ReconstructArgs {
-    /// The same for one mesh: its STEP file, and beside it all that is given by its ending alone.
-    pub(crate) fn of_one(&self, input: &Path, step: PathBuf) -> Self {
-        let mut one = self.clone();
-        one.input.input = input.to_owned();
-        for (_, path) in one.output.others_mut() {
-            if let Some(ending) = ending(path) {
-                *path = step.with_extension(ending);
-            }
-        }
-        one.output.output = Some(step);
-        one
-    }
-}
-
-/// `png` for a path that is nothing but `.png`.
-pub(crate) fn ending(path: &Path) -> Option<&str> {
-    let ending = path.to_str()?.strip_prefix('.')?;
-    (!ending.is_empty() && ending != "." && !ending.contains(['/', '\\'])).then_some(ending)
-}
-
-impl OutputArgs {
-    /// All outputs but the STEP file, each with its option.
-    fn others_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
-        let single = [
-            ("--cut-list", &mut self.cut_list),
-            ("--skeleton", &mut self.skeleton),
-            ("--sections", &mut self.sections),
-            ("--report", &mut self.report),
-        ];
-        let several = [("--export", &mut self.export), ("--picture", &mut self.picture)];
-        let single = single.into_iter().filter_map(|(option, path)| Some((option, path.as_mut()?)));
-        let several = several.into_iter().flat_map(|(option, all)| all.iter_mut().map(move |p| (option, p)));
-        single.chain(several)
-    }
-
-    /// Whether all outputs can be those of many meshes.
-    ///
-    /// # Errors
-    /// The first that names one file.
-    pub(crate) fn check_endings(&self) -> Result<(), Failure> {
-        let mut output = self.clone();
-        let Some((option, path)) = output.others_mut().find(|(_, path)| ending(path).is_none())
-        else {
-            return Ok(());
-        };
-        let wanted = path.extension().or(path.file_name()).unwrap_or_default();
-        Err(Failure::usage(format!(
-            "{option} {} is one file for many meshes: with --out-dir give its ending alone, \
-             {option} .{}",
-            path.display(),
-            wanted.display()
-        )))
-    }
-
-    pub(crate) fn material(&self) -> Material {
-        Material {
-            name: self.material.clone(),
-            density: self.density,
-            elastic_modulus: self.elastic_modulus,
-            poisson: self.poisson,
-        }
-    }
-
-    /// Whether every number is one that can be.
-    pub(crate) fn check(&self) -> Result<(), Failure> {
-        self.material().check().map_err(Failure::usage)?;
-        // Without bars a saw cut still has to be a width.
-        let length_mm = self.stock_length.unwrap_or(LONGEST_BAR);
-        Stock { length_mm, kerf_mm: self.kerf }.check().map_err(Failure::usage)
-    }
-
-    pub(crate) fn cut_list_params(&self) -> CutListParams {
-        CutListParams {
-            material: self.material(),
-            stock: self.stock_length.map(|length_mm| Stock { length_mm, kerf_mm: self.kerf }),
-        }
-    }
 }
 
 impl InputArgs {
@@ -533,16 +411,6 @@ mod tests {
         assert_eq!(FrameParams::from(&args.frame), FrameParams::default());
         assert_eq!(ProfileParams::from(&args.frame), ProfileParams::default());
         assert_eq!(args.input.settings().labels.names, LabelParams::default().names);
-    }
-
-    #[test]
-    fn an_ending_is_a_dot_and_no_path() {
-        for (path, wanted) in [(".png", Some("png")), (".skeleton.ply", Some("skeleton.ply"))] {
-            assert_eq!(ending(Path::new(path)), wanted, "{path}");
-        }
-        for path in ["png", "a.png", "./.png", "../a.png", ".", "..", "", "/tmp/.png"] {
-            assert_eq!(ending(Path::new(path)), None, "{path}");
-        }
     }
 
     #[test]

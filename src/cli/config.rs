@@ -17,8 +17,9 @@ use beamwright::output::{OutputFiles, check_target};
 use clap::{Arg, ArgAction, ArgMatches, Command, CommandFactory};
 use toml::{Table, Value};
 
-use super::args::{Cli, ending};
+use super::args::Cli;
 use super::exit::{Exit, Failure};
+use super::outputs::ending;
 
 /// Options that say what this one run reads and writes: no part of a file for many runs.
 const OF_ONE_RUN: [&str; 8] =

@@ -25,7 +25,7 @@ pub(crate) fn run(
     global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
-    args.output.check()?;
+    args.shop.check()?;
     match (&args.output.out_dir, &args.output.output) {
         (Some(folder), _) => super::batch::run(args, folder, global, progress),
         (None, step) => {
@@ -83,7 +83,7 @@ fn reconstruct(
     let mut outcome = pipeline::run(&args.input.input, &settings, progress)?;
     let name = show::name_of(&args.input.input);
     let stem = args.input.input.file_stem().unwrap_or_default().to_string_lossy();
-    let density = args.output.density;
+    let density = args.shop.density;
     let mut built =
         assembly(&stem, &outcome.frame, &outcome.joints, density).map_err(Failure::input)?;
     if !args.output.no_non_design {
@@ -91,7 +91,7 @@ fn reconstruct(
     }
     let Assembly { document, beside, findings } = built;
     outcome.findings.extend(findings);
-    let list = CutList::new(&outcome.frame, &outcome.joints, &args.output.cut_list_params());
+    let list = CutList::new(&outcome.frame, &outcome.joints, &args.shop.cut_list_params());
     outcome.findings.extend(list.findings());
     let summary = Summary::new(name, &outcome.surface, &outcome.findings)
         .with_skeleton(&outcome.surface, &outcome.skeleton)
@@ -238,9 +238,7 @@ fn written(
             .map_err(Failure::input)?;
     }
     for export in &targets.exports {
-        export
-            .add(&mut files, outcome, document, &args.output.material())
-            .map_err(Failure::input)?;
+        export.add(&mut files, outcome, document, &args.shop.material()).map_err(Failure::input)?;
     }
     targets.looks.add(&mut files, args, outcome, summary, document, list)?;
     Ok(files)
