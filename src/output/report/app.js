@@ -10,13 +10,20 @@
 
   // ---- packed geometry -------------------------------------------------------------------------
 
-  const bytes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer;
+  function bytes(base64) {
+    const text = atob(base64);
+    const all = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; i++) all[i] = text.charCodeAt(i);
+    return all.buffer;
+  }
   const indices = ({ bits, base64 }) =>
     bits === 16 ? new Uint16Array(bytes(base64)) : new Uint32Array(bytes(base64));
   function points(base64) {
     const steps = new Uint16Array(bytes(base64));
     const { origin, step } = scene.grid;
-    return Float32Array.from(steps, (s, i) => origin[i % 3] + s * step);
+    const places = new Float32Array(steps.length);
+    for (let i = 0; i < steps.length; i++) places[i] = origin[i % 3] + steps[i] * step;
+    return places;
   }
 
   // ---- colours ---------------------------------------------------------------------------------
@@ -110,7 +117,7 @@
       this.scene.add(this.camera);
       this.layers = {};
       this.build();
-      this.look("isometric");
+      this.resize();
       new ResizeObserver(() => this.resize()).observe(host);
       this.listen();
     }
@@ -118,8 +125,7 @@
     build() {
       const V = Vendor;
       const places = new V.BufferAttribute(points(scene.mesh.points), 3);
-      this.box = new V.Box3().setFromBufferAttribute(places);
-      this.size = this.box.getSize(new V.Vector3()).length() || 1;
+      this.size = scene.size || 1;
       this.layers.mesh = this.surface(places, scene.mesh.design, 0x9aa7b8, 0.22);
       this.layers.nonDesign = this.surface(places, scene.mesh.nonDesign, 0xc94b41, 0.2);
       this.layers.beams = this.solids();
@@ -151,6 +157,7 @@
       const material = new V.MeshLambertMaterial({ color: colour, transparent: true, opacity, flatShading: true, side: V.DoubleSide, forceSinglePass: true, depthWrite: false });
       const mesh = new V.Mesh(geometry, material);
       mesh.renderOrder = 2;
+      mesh.frustumCulled = false;
       return mesh;
     }
 
@@ -229,19 +236,24 @@
       const V = Vendor;
       const right = new V.Vector3(0, 0, 1).cross(towards).normalize();
       const axes = [right, towards.clone().cross(right), towards];
-      const places = this.layers.mesh.geometry.getAttribute("position");
-      const point = new V.Vector3();
-      const seen = Array.from({ length: places.count }, (_, i) => {
-        point.fromBufferAttribute(places, i);
-        return axes.map((axis) => point.dot(axis));
-      });
-      const middle = axes.map((_, k) => {
-        const [low, high] = seen.reduce(([l, h], p) => [Math.min(l, p[k]), Math.max(h, p[k])], [Infinity, -Infinity]);
+      const places = this.layers.mesh.geometry.getAttribute("position").array;
+      const along = (axis, i) => axis.x * places[i] + axis.y * places[i + 1] + axis.z * places[i + 2];
+      const middle = axes.map((axis) => {
+        let [low, high] = [Infinity, -Infinity];
+        for (let i = 0; i < places.length; i += 3) {
+          const at = along(axis, i);
+          low = Math.min(low, at);
+          high = Math.max(high, at);
+        }
         return (low + high) / 2;
       });
       const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
-      const reach = ([x, y, z]) => z - middle[2] + Math.max(Math.abs(x - middle[0]) / (tangent * this.camera.aspect), Math.abs(y - middle[1]) / tangent);
-      const distance = 1.06 * seen.reduce((far, p) => Math.max(far, reach(p)), 0) || 1;
+      let farthest = 0;
+      for (let i = 0; i < places.length; i += 3) {
+        const [x, y, z] = axes.map((axis, k) => along(axis, i) - middle[k]);
+        farthest = Math.max(farthest, z + Math.max(Math.abs(x) / (tangent * this.camera.aspect), Math.abs(y) / tangent));
+      }
+      const distance = 1.06 * farthest || 1;
       const target = axes.reduce((sum, axis, k) => sum.addScaledVector(axis, middle[k]), new V.Vector3());
       return { target, distance };
     }
@@ -320,6 +332,8 @@
     resize() {
       const { clientWidth: width, clientHeight: height } = this.host;
       if (!width || !height || matchMedia("print").matches) return;
+      if (width === this.width && height === this.height) return;
+      [this.width, this.height] = [width, height];
       this.renderer.setSize(width, height);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
@@ -463,9 +477,12 @@
   // ---- plots -----------------------------------------------------------------------------------
 
   const plots = {};
+  /** Whether the plots have come near the screen: before that nothing is drawn. */
+  let plotted = false;
 
   /** Draws a plot into its place, in the colours of the theme and as wide as there is room. */
   function plot(id, options, data) {
+    if (!plotted) return;
     plots[id]?.destroy();
     const host = $(id);
     const axis = { values: (u, ticks) => ticks.map(figure), stroke: style("--soft"), grid: { stroke: style("--line"), width: 1 }, ticks: { stroke: style("--line"), width: 1 } };
@@ -548,6 +565,7 @@
   let before = "light";
   addEventListener("beforeprint", () => {
     before = root.dataset.theme;
+    plotted = true;
     setTheme("light");
   });
   addEventListener("afterprint", () => setTheme(before));
@@ -576,6 +594,12 @@
     viewer?.paint(colours.beams, chosen);
     viewer?.theme();
   }));
+  new IntersectionObserver((entries, watch) => {
+    if (!entries.some((e) => e.isIntersecting)) return;
+    watch.disconnect();
+    plotted = true;
+    plotAll();
+  }, { rootMargin: "50%" }).observe($("plots"));
   let settled;
   addEventListener("resize", () => {
     clearTimeout(settled);

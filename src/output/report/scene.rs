@@ -26,7 +26,11 @@ const OUTLINE_POINTS: usize = 32;
 #[serde(rename_all = "camelCase")]
 pub(super) struct Scene {
     grid: Grid,
+    /// Diagonal of the mesh, mm.
+    size: f64,
+    #[serde(skip)]
     triangles: usize,
+    #[serde(skip)]
     shown_triangles: usize,
     mesh: MeshScene,
     beam_mesh: BeamMesh,
@@ -104,6 +108,7 @@ impl Scene {
         let peers = report.measures.peers.iter();
         let places = report.summary.findings.iter().map(|f| f.place.map(|p| p.map(tidy)));
         Self {
+            size: tidy(report.summary.mesh.diagonal),
             triangles,
             shown_triangles: shown.triangles.len(),
             mesh: MeshScene::new(&shown, &grid),
