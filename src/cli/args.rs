@@ -196,7 +196,7 @@ pub(crate) struct ResultArgs {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// End with exit code 3, and write nothing, when a promise does not hold (points outside, wrong
+    /// End with exit code 3, and write no file, when a promise does not hold (points outside, wrong
     /// topology)
     #[arg(long)]
     pub(crate) strict: bool,

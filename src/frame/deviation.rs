@@ -53,8 +53,8 @@ pub(super) fn report(making: &Making<'_>, params: &FrameParams, findings: &mut V
                 FindingKind::Deviation,
                 Some(worst.centroid),
                 format!(
-                    "beam {} leaves its branch by {:.2} mm ({:.2} section radii)",
-                    i + 1,
+                    "{} leaves its branch by {:.2} mm ({:.2} section radii)",
+                    super::mark(i),
                     worst.distance,
                     worst.depths
                 ),
@@ -74,10 +74,10 @@ pub(super) fn report_outside(
         .collect();
     let Some(&first) = outside.first() else { return };
     let [a, b] = making.axis(&making.pieces[first]);
-    let names: Vec<String> = outside.iter().map(|i| (i + 1).to_string()).collect();
+    let marks: Vec<String> = outside.iter().map(|&i| super::mark(i)).collect();
     findings.push(Finding::note(
         FindingKind::BeamOutside,
         Some(nalgebra::center(&a, &b)),
-        format!("{} beam axis(es) leave the material: beam {}", names.len(), names.join(", ")),
+        format!("the axis leaves the material of {}", marks.join(", ")),
     ));
 }

@@ -151,6 +151,11 @@ impl Frame {
     }
 }
 
+/// Mark of beam number `index`, counted from 0: `B001`.
+pub fn mark(index: usize) -> String {
+    format!("B{:03}", index + 1)
+}
+
 /// Unit vector from one point to another; x where they coincide.
 pub(crate) fn direction(a: &Point3<f64>, b: &Point3<f64>) -> Unit<Vector3<f64>> {
     Unit::try_new(b - a, 0.0).unwrap_or_else(Vector3::x_axis)

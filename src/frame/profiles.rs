@@ -155,8 +155,8 @@ fn no_outlines(frame: &Frame) -> Vec<Finding> {
                 FindingKind::PoorMatch,
                 Some(nalgebra::center(&a, &b)),
                 format!(
-                    "beam {}: no smooth outline follows its contour; it is {}",
-                    i + 1,
+                    "{}: no smooth outline follows its contour; it is {}",
+                    super::mark(i),
                     beam.shape.name()
                 ),
             )
@@ -175,8 +175,8 @@ fn poor_matches(frame: &Frame) -> Vec<Finding> {
                 FindingKind::PoorMatch,
                 Some(nalgebra::center(&a, &b)),
                 format!(
-                    "beam {}: {} is off by {:+.0} % in I1 and {:+.0} % in I2",
-                    i + 1,
+                    "{}: {} is off by {:+.0} % in I1 and {:+.0} % in I2",
+                    super::mark(i),
                     beam.shape.name(),
                     100.0 * errors.i_1,
                     100.0 * errors.i_2

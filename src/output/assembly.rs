@@ -9,6 +9,7 @@ use super::mesh_export::PartMesh;
 use super::non_design::{NonDesign, non_design};
 use super::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
 use crate::finding::{Finding, FindingKind};
+pub use crate::frame::mark;
 use crate::frame::shape::{BeamShape, ShapeStation};
 use crate::frame::{Beam, Frame};
 use crate::joint::{Alike, Ball, CutBeam, EndCut, Joints, SAME_PIECE, alike};
@@ -30,11 +31,6 @@ const COLOURS: [[u8; 3]; 7] = [
 
 /// Balls are grey: they are no profile.
 const BALL_COLOUR: [u8; 3] = [160, 160, 160];
-
-/// Mark of beam number `index`, counted from 0: `B001`.
-pub fn mark(index: usize) -> String {
-    format!("B{:03}", index + 1)
-}
 
 /// The assembly of a frame, and what could not be built as wanted.
 #[derive(Clone, Debug, PartialEq)]

@@ -357,12 +357,12 @@ impl Display for Summary {
 /// One line on the mesh, in words.
 pub(super) fn mesh_line(mesh: &MeshSummary) -> String {
     format!(
-        "{} triangles, {}, genus {}, {:.1} mm across, {:.0} mm³",
+        "{} triangles, {}, genus {}, {:.1} mm across, {} mm³",
         grouped(mesh.triangles),
         counted(mesh.bodies, "body", "bodies"),
         mesh.genus,
         mesh.diagonal,
-        mesh.volume
+        grouped(mesh.volume.round() as usize)
     )
 }
 
@@ -372,10 +372,10 @@ pub(super) fn label_line(labels: &LabelSummary) -> String {
         return "none: the whole mesh is design".to_owned();
     };
     let mut line = format!(
-        "by {source}: {} non-design faces in {} set(s), {} interface section(s)",
+        "by {source}: {} non-design faces in {}, {}",
         grouped(labels.non_design_faces),
-        labels.sets,
-        labels.interfaces.len()
+        counted(labels.sets, "set", "sets"),
+        counted(labels.interfaces.len(), "interface section", "interface sections")
     );
     let others: Vec<String> = labels
         .marked
@@ -411,7 +411,7 @@ pub(super) fn skeleton_line(s: &SkeletonSummary) -> String {
         s.expected_cycles
     );
     if s.free_ends > 0 {
-        let _ = write!(line, "; {} free end(s)", s.free_ends);
+        let _ = write!(line, "; {}", counted(s.free_ends, "free end", "free ends"));
     }
     line
 }
@@ -426,10 +426,10 @@ pub(super) fn frame_line(frame: &FrameSummary) -> String {
 pub(super) fn volume_line(frame: &FrameSummary) -> String {
     let part = |volume: f64| 100.0 * volume / frame.design_volume;
     format!(
-        "beams {:.0} mm³ without overlap at joints, for {:.0} mm³ of design \
+        "beams {} mm³ without overlap at joints, for {} mm³ of design \
          ({:+.1}\u{a0}%); {:.1}\u{a0}% stick out",
-        frame.volume_together,
-        frame.design_volume,
+        grouped(frame.volume_together.round() as usize),
+        grouped(frame.design_volume.round() as usize),
         part(frame.volume_together) - 100.0,
         part(frame.volume_outside)
     )

@@ -462,7 +462,7 @@
     } catch {
       copyByHand(text);
     }
-    $("count").textContent = `${lines.length - 1} beam(s) copied`;
+    $("count").textContent = `${lines.length === 2 ? "1 beam" : `${lines.length - 1} beams`} copied`;
   });
 
   function copyByHand(text) {
@@ -504,11 +504,11 @@
     plot("plot-branch", {
       scales: { x: { time: false }, area: { range: (u, low, high) => [0, 1.1 * high || 1] }, radius: { range: (u, low, high) => [0, 1.1 * high || 1] } },
       series: [
-        { label: "way, mm", value: (u, v) => figure(v) },
+        { label: "from the start, mm", value: (u, v) => figure(v) },
         { label: "area, mm²", scale: "area", stroke: "#0072b2", width: 2, spanGaps: true, points: { show: true, size: 4 }, value: (u, v) => figure(v) },
         { label: "radius, mm", scale: "radius", stroke: "#d55e00", width: 2, spanGaps: true, points: { show: true, size: 4 }, value: (u, v) => figure(v) },
       ],
-      axes: [{ label: "way, mm" }, { scale: "area", label: "area, mm²", size: 60 }, { scale: "radius", side: 1, label: "radius, mm", grid: { show: false } }],
+      axes: [{ label: "from the start, mm" }, { scale: "area", label: "area, mm²", size: 60 }, { scale: "radius", side: 1, label: "radius, mm", grid: { show: false } }],
     }, branchData(branch));
   }
 

@@ -41,8 +41,9 @@ pub fn table(entries: &[&Entry]) -> String {
     }
     let _ = writeln!(
         text,
-        "\n{} profile(s). A in cm², I and J in cm⁴, mass in kg/m (steel).",
-        entries.len()
+        "\n{} {}. A in cm², I and J in cm⁴, mass in kg/m (steel).",
+        entries.len(),
+        if entries.len() == 1 { "profile" } else { "profiles" }
     );
     text
 }
