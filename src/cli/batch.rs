@@ -7,6 +7,7 @@ use super::args::{GlobalArgs, ReconstructArgs};
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, interrupted};
 use super::reconstruct::Job;
+use super::show;
 
 /// Reconstructs every mesh; the results of `NAME.EXT` go to `folder/NAME.step` and beside it.
 ///
@@ -39,7 +40,7 @@ pub(crate) fn run(
             progress.finish();
             // Most messages name the mesh themselves.
             let of = if message.contains(&input) { String::new() } else { format!("{input}: ") };
-            eprintln!("error: {of}{message}");
+            show::error(&format!("{of}{message}"));
             failed.push((input, exit));
         }
     }

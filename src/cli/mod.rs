@@ -65,7 +65,7 @@ fn ended(end: Result<Exit, Failure>) -> ExitCode {
     match end {
         Ok(exit) => exit.into(),
         Err(Failure { exit, message }) => {
-            eprintln!("error: {message}");
+            show::error(&message);
             exit.into()
         }
     }

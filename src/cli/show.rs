@@ -48,3 +48,8 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         _ => Ok(()),
     }
 }
+
+/// Writes what went wrong to standard error; a reader that has gone away is none the wiser.
+pub(crate) fn error(message: &str) {
+    let _ = writeln!(io::stderr(), "error: {message}");
+}

@@ -45,6 +45,15 @@ pub fn check_target(path: &Path) -> Result<(), WriteError> {
     Ok(())
 }
 
+/// What lies behind an error that tells the name of a temporary file.
+fn cause(error: io::Error) -> io::Error {
+    let behind = error.get_ref().and_then(|e| e.source()).map(ToString::to_string);
+    match behind {
+        Some(text) => io::Error::new(error.kind(), text),
+        None => error,
+    }
+}
+
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -72,10 +81,12 @@ impl OutputFiles {
             // As any new file: the user's mask decides.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(folder_of(&target)).map_err(failed)?;
-        let mut buffered = BufWriter::with_capacity(1 << 16, file);
+        let file = builder.tempfile_in(folder_of(&target)).map_err(|e| failed(cause(e)))?;
+        // Past the temporary file, whose errors tell its own name.
+        let mut buffered = BufWriter::with_capacity(1 << 16, file.as_file());
         write(&mut buffered).map_err(|e| failed(io::Error::other(e.to_string())))?;
-        let file = buffered.into_inner().map_err(|e| failed(e.into_error()))?;
+        buffered.flush().map_err(failed)?;
+        drop(buffered);
         self.pending.push((target, file));
         Ok(())
     }
@@ -91,7 +102,8 @@ impl OutputFiles {
     /// The first file that cannot be renamed; those after it are not written.
     pub fn commit(self) -> Result<(), WriteError> {
         for (path, file) in self.pending {
-            file.persist(&path).map_err(|e| WriteError { path: path.clone(), source: e.error })?;
+            file.persist(&path)
+                .map_err(|e| WriteError { path: path.clone(), source: cause(e.error) })?;
         }
         Ok(())
     }

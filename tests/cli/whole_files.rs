@@ -82,6 +82,7 @@ fn a_full_disk_leaves_nothing_half_written() {
     for blocks in [1, 8, 12] {
         let message = on_a_small_disk(folder.path(), blocks, &ALL).failed(1);
         assert!(message.starts_with("cannot write out."), "{message}");
+        assert!(!message.contains(".part"), "the name of a temporary file: {message}");
         assert_eq!(text(&step), "old", "{blocks} blocks");
         assert_eq!(names(folder.path()), ["bar.obj", "out.step"], "{blocks} blocks");
     }
