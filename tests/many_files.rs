@@ -227,7 +227,11 @@ fn completions_and_manual_pages_are_printed() -> Outcome {
         assert!(done.status.success() && done.stdout.len() > 1000, "{shell}");
     }
     let page = beamwright(folder.path(), &["man", "reconstruct"])?;
-    assert!(String::from_utf8(page.stdout)?.contains(".SH SYNOPSIS"));
+    let page = String::from_utf8(page.stdout)?;
+    assert!(page.contains(".SH SYNOPSIS"));
+    // An example is a line of its own, to be copied.
+    let example = "\\&beamwright reconstruct part.obj \\-o part.step\n";
+    assert!(page.contains(".SH \"EXAMPLES\"\n.nf\n") && page.contains(example), "{page}");
     assert_eq!(beamwright(folder.path(), &["man", "nothing"])?.status.code(), Some(2));
     Ok(())
 }

@@ -1,6 +1,8 @@
 //! What the command line knows of itself: completions and manual pages.
 
-use clap::CommandFactory;
+use std::io;
+
+use clap::{Command, CommandFactory};
 use clap_complete::Shell;
 
 use super::args::Cli;
@@ -25,9 +27,40 @@ pub(crate) fn manual(command: Option<&str>) -> Result<Exit, Failure> {
             Failure::usage(format!("no subcommand {name}; there are {}", known.join(", ")))
         })?,
     };
+    print(page_of(page).map_err(Failure::input)?)
+}
+
+/// A manual page whose examples stand line by line.
+fn page_of(command: Command) -> io::Result<Vec<u8>> {
+    let more = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+    let page = clap_mangen::Man::new(command);
     let mut text = Vec::new();
-    clap_mangen::Man::new(page).render(&mut text).map_err(Failure::input)?;
-    print(text)
+    page.render_title(&mut text)?;
+    page.render_name_section(&mut text)?;
+    page.render_synopsis_section(&mut text)?;
+    page.render_description_section(&mut text)?;
+    page.render_options_section(&mut text)?;
+    page.render_subcommands_section(&mut text)?;
+    text.extend(sections(&more).into_bytes());
+    page.render_version_section(&mut text)?;
+    Ok(text)
+}
+
+/// `Examples:` and what is indented below it as a section whose lines are not filled.
+fn sections(text: &str) -> String {
+    let mut roff = String::new();
+    for line in text.lines().filter(|line| !line.is_empty()) {
+        match (line.strip_prefix("  "), line.strip_suffix(':')) {
+            (None, Some(heading)) => {
+                roff += &format!(".fi\n.SH \"{}\"\n.nf\n", heading.to_uppercase());
+            }
+            (indented, _) => {
+                let plain = indented.unwrap_or(line).replace('\\', "\\e").replace('-', "\\-");
+                roff += &format!("\\&{plain}\n");
+            }
+        }
+    }
+    roff + ".fi\n"
 }
 
 fn print(text: Vec<u8>) -> Result<Exit, Failure> {
