@@ -1,4 +1,4 @@
-//! The straight line between two points, in the plane or in space.
+//! Straight lines between points, in the plane or in space.
 
 use nalgebra::{Point, SVector};
 
@@ -27,6 +27,28 @@ pub(crate) fn distance<const D: usize>(
     offset(p, a, b).norm()
 }
 
+/// Adds the points a chain bends at between two of its points, and the latter of these: no point is
+/// farther than a tolerance from the straight line between two that are kept (Ramer; Douglas and
+/// Peucker).
+pub(crate) fn bends<const D: usize>(
+    chain: &[Point<f64, D>],
+    from: usize,
+    to: usize,
+    tolerance: f64,
+    kept: &mut Vec<usize>,
+) {
+    let farthest = (from + 1..to)
+        .map(|i| (i, distance(&chain[i], &chain[from], &chain[to])))
+        .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+    match farthest {
+        Some((i, distance)) if distance > tolerance => {
+            bends(chain, from, i, tolerance, kept);
+            bends(chain, i, to, tolerance, kept);
+        }
+        _ => kept.push(to),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -38,6 +60,15 @@ mod tests {
         assert_eq!(distance(&Point3::new(5.0, 3.0, 4.0), &a, &b), 5.0);
         assert_eq!(distance(&Point3::new(-3.0, 0.0, 4.0), &a, &b), 5.0);
         assert_eq!(distance(&Point3::new(13.0, -4.0, 0.0), &a, &b), 5.0);
+    }
+
+    #[test]
+    fn a_chain_keeps_the_points_it_bends_at() {
+        let chain = [[0.0, 0.0], [1.0, 0.1], [2.0, 0.0], [2.1, 1.0], [2.0, 2.0]];
+        let chain = chain.map(|[x, y]| Point2::new(x, y));
+        let mut kept = vec![0];
+        bends(&chain, 0, 4, 0.2, &mut kept);
+        assert_eq!(kept, [0, 2, 4]);
     }
 
     #[test]

@@ -1,13 +1,13 @@
 //! Breaks a bent branch into straight pieces.
 //!
-//! Ramer, Douglas and Peucker: a chain of points is one piece when none of them is farther from the
-//! chord than the tolerance; else it is broken at the farthest and both parts are looked at again.
-//! Pieces too short to be a beam are then given to their neighbours: next to a junction a branch
-//! turns into it, which is no bend of the beam.
+//! A chain of points is one piece when none of them is farther from the chord than the tolerance;
+//! else it is broken at the farthest and both parts are looked at again. Pieces too short to be a
+//! beam are then given to their neighbours: next to a junction a branch turns into it, which is no
+//! bend of the beam.
 
 use nalgebra::Point3;
 
-use crate::segment::distance;
+use crate::segment::{bends, distance};
 
 /// Indices at which a chain is broken, its first and last point included.
 ///
@@ -19,9 +19,9 @@ pub(crate) fn breaks(chain: &[Point3<f64>], tolerance: f64, shortest: f64) -> Ve
     if chain[0] == chain[last] && last > 2 {
         // A ring has no chord: begin with three parts.
         let thirds = [0, last / 3, 2 * last / 3, last];
-        thirds.windows(2).for_each(|w| split(chain, w[0], w[1], tolerance, &mut kept));
+        thirds.windows(2).for_each(|w| bends(chain, w[0], w[1], tolerance, &mut kept));
     } else {
-        split(chain, 0, last, tolerance, &mut kept);
+        bends(chain, 0, last, tolerance, &mut kept);
     }
     join_short_pieces(chain, shortest, &mut kept);
     kept
@@ -51,19 +51,6 @@ fn join_short_pieces(chain: &[Point3<f64>], shortest: f64, kept: &mut Vec<usize>
             }
         };
         kept.remove(bend);
-    }
-}
-
-fn split(chain: &[Point3<f64>], from: usize, to: usize, tolerance: f64, kept: &mut Vec<usize>) {
-    let farthest = (from + 1..to)
-        .map(|i| (i, distance(&chain[i], &chain[from], &chain[to])))
-        .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-    match farthest {
-        Some((i, distance)) if distance > tolerance => {
-            split(chain, from, i, tolerance, kept);
-            split(chain, i, to, tolerance, kept);
-        }
-        _ => kept.push(to),
     }
 }
 

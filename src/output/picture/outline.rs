@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 
 use nalgebra::{Point2, Point3};
 
-use crate::segment;
+use crate::segment::bends;
 
 /// A corner, tenths of a pixel right and down.
 type Corner = [i32; 2];
@@ -88,42 +88,23 @@ impl Outline {
     }
 }
 
-/// A loop without the corners that hardly bend it (Douglas and Peucker, 1973).
+/// A loop without the corners that hardly bend it.
 fn simplified(corners: &[Corner]) -> Vec<Corner> {
     let Some(&first) = corners.first() else { return Vec::new() };
     let away = |c: &Corner| distance_squared(*c, first);
     let far = (0..corners.len()).max_by_key(|&i| away(&corners[i])).unwrap_or(0);
-    let back: Vec<Corner> = corners[far..].iter().copied().chain([first]).collect();
-    let mut kept = vec![first];
-    keep(&corners[..=far], &mut kept);
-    keep(&back, &mut kept);
+    let point = |[x, y]: &Corner| Point2::new(f64::from(*x), f64::from(*y));
+    let chain: Vec<Point2<f64>> = corners.iter().chain([&first]).map(point).collect();
+    let mut kept = vec![0];
+    bends(&chain, 0, far, TOLERANCE, &mut kept);
+    bends(&chain, far, corners.len(), TOLERANCE, &mut kept);
     kept.pop();
-    kept
-}
-
-/// Adds the corners of a chain that are needed, without its first.
-fn keep(chain: &[Corner], kept: &mut Vec<Corner>) {
-    let [first, inner @ .., last] = chain else { return };
-    let off = |c: &Corner| distance(*c, *first, *last);
-    let worst = (0..inner.len()).max_by(|&i, &k| off(&inner[i]).total_cmp(&off(&inner[k])));
-    match worst.filter(|&i| off(&inner[i]) > TOLERANCE) {
-        Some(i) => {
-            keep(&chain[..=i + 1], kept);
-            keep(&chain[i + 1..], kept);
-        }
-        None => kept.push(*last),
-    }
+    kept.into_iter().map(|i| corners[i]).collect()
 }
 
 fn distance_squared([x, y]: Corner, [u, v]: Corner) -> i64 {
     let [x, y] = [i64::from(x) - i64::from(u), i64::from(y) - i64::from(v)];
     x * x + y * y
-}
-
-/// Distance of a corner from a segment.
-fn distance(c: Corner, a: Corner, b: Corner) -> f64 {
-    let [c, a, b] = [c, a, b].map(|[x, y]| Point2::new(f64::from(x), f64::from(y)));
-    segment::distance(&c, &a, &b)
 }
 
 fn doubled_area(corners: &[Corner]) -> i64 {
