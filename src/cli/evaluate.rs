@@ -81,7 +81,7 @@ enum SphereArg {
 
 pub(crate) fn run(
     args: &EvaluateArgs,
-    _global: &GlobalArgs,
+    global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
     let options = args.measure.options();
@@ -99,7 +99,7 @@ pub(crate) fn run(
     let comparisons = comparisons(&evaluated, &skeletons, args.measure.resample)?;
     progress.finish();
     let report = Report::new(evaluated, comparisons);
-    print(&report, &args.result)?;
+    print(&report, &args.result, global)?;
     match breach(&report.skeletons).filter(|_| args.result.strict) {
         Some(message) => Err(Failure { exit: Exit::Breach, message }),
         None => Ok(Exit::Done),
@@ -187,12 +187,13 @@ fn faults(e: &Evaluation) -> Vec<String> {
     .collect()
 }
 
-fn print(report: &Report, args: &ResultArgs) -> Result<(), Failure> {
+fn print(report: &Report, args: &ResultArgs, global: &GlobalArgs) -> Result<(), Failure> {
     if args.json {
-        show::print(&report.to_json().map_err(Failure::input)?)
-    } else {
-        show::print(&report.to_table())
+        show::print(&report.to_json().map_err(Failure::input)?)?;
+    } else if !global.quiet {
+        show::print(&report.to_table())?;
     }
+    Ok(())
 }
 
 impl MeasureArgs {

@@ -23,6 +23,24 @@ fn a_run_into_a_pipe_says_nothing_on_standard_error() {
     assert!(!ran.stdout.contains('\u{1b}'), "no colours in a pipe");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_reader_of_errors_that_has_gone_away_changes_no_exit_code() {
+    let folder = folder_with_bar();
+    for (words, code) in [
+        (&["reconstruct", "nothing.obj", "-o", "a.step"][..], 1),
+        (&["reconstruct", "nothing.obj", "none.obj", "--out-dir", "out"], 1),
+        (&["reconstruct", "bar.obj", "-o", "a.pdf"], 2),
+        (&["reconstruct", "bar.obj", "-o", "a.step", "-v", "--progress", "json"], 0),
+    ] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let ran: Ran =
+            command(folder.path()).args(words).stderr(writer).output().expect("a run").into();
+        assert_eq!(ran.code, Some(code), "{words:?}");
+    }
+}
+
 #[test]
 fn tables_fit_80_columns() {
     let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples");
@@ -83,6 +101,10 @@ fn quiet_leaves_errors_only() {
     let ran = reconstruct(&["-q"]);
     assert_eq!((ran.code, ran.stdout.as_str(), ran.stderr.as_str()), (Some(0), "", ""));
     let folder = folder_with_bar();
+    run(folder.path(), &["skeleton", "bar.obj", "-o", "a.json", "-q"]).succeeded();
+    for words in [&["inspect", "bar.obj", "-q"][..], &["evaluate", "bar.obj", "a.json", "-q"]] {
+        assert_eq!(run(folder.path(), words).succeeded(), "", "{words:?}");
+    }
     run(folder.path(), &["inspect", "nothing.obj", "-q"]).failed(1);
 }
 
