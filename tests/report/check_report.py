@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Opens reports in headless Chromium and uses them as a person would.
 
-    check_report.py PROGRAM SAMPLES PICTURES
+    PYTHONPATH=benches check_report.py PROGRAM SAMPLES PICTURES
 
 No message on the console, no request but for the file itself, a view that shows something and
 obeys mouse, keys and fingers, tables that sort, search and copy, the cut list as in its files, both
@@ -20,37 +20,17 @@ from pathlib import Path
 
 from browser import FLAGS, check, opened, report
 from cut_list import cut_list
+from finer import read_obj, split, write_ply
 from interaction import touch, use
 from playwright.sync_api import Browser, sync_playwright
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 
 
-def subdivided(mesh: Path, folder: Path) -> Path:
+def finer(mesh: Path, folder: Path) -> Path:
     """The mesh of an OBJ file with every triangle cut into four."""
-    points: list[list[float]] = []
-    lines: list[str] = []
-    middles: dict[tuple[int, int], int] = {}
-
-    def middle(a: int, b: int) -> int:
-        side = (min(a, b), max(a, b))
-        if side not in middles:
-            points.append([(x + y) / 2 for x, y in zip(points[a - 1], points[b - 1])])
-            middles[side] = len(points)
-        return middles[side]
-
-    for line in mesh.read_text().splitlines():
-        kind, _, rest = line.partition(" ")
-        if kind == "v":
-            points.append([float(x) for x in rest.split()[:3]])
-        elif kind == "f":
-            a, b, c = (int(corner.split("/")[0]) for corner in rest.split())
-            p, q, r = middle(a, b), middle(b, c), middle(c, a)
-            lines += [f"f {i} {j} {k}" for i, j, k in ((a, p, r), (p, b, q), (r, q, c), (p, q, r))]
-        else:
-            lines.append(line)
-    fine = folder / f"{mesh.stem}_fine.obj"
-    fine.write_text("\n".join([*(f"v {x} {y} {z}" for x, y, z in points), *lines]) + "\n")
+    fine = folder / f"{mesh.stem}_fine.ply"
+    write_ply(fine, split(read_obj(mesh)))
     return fine
 
 
@@ -60,12 +40,12 @@ PATIENCE = 2.0
 
 def large(browser: Browser, program: Path, samples: Path, folder: Path) -> None:
     """Weight and opening time of large reports; a view of fewer triangles says so."""
-    html = report(program, subdivided(samples / "cantilever.obj", folder), folder)
+    html = report(program, finer(samples / "cantilever.obj", folder), folder)
     size = html.stat().st_size / 1e6
     check(size < 5, f"46,912 triangles: {size:.1f} MB")
     best = min(opening(browser, html) for _ in range(5))
     check(best < PATIENCE, f"46,912 triangles: open in {best:.1f} s")
-    html = report(program, subdivided(samples / "quadpod.obj", folder), folder)
+    html = report(program, finer(samples / "quadpod.obj", folder), folder)
     page, faults = opened(browser, html)
     shown = page.get_by_text("thinned surface of").text_content() or ""
     check("126744" in shown and not faults, f"more than 100,000 triangles: {shown}")
