@@ -87,6 +87,9 @@ def view(page: Page, name: str) -> None:
         before = shot(page)
         host.press(key)
         check(shot(page) != before, f"{name}: the view obeys {key}")
+    before = shot(page)
+    host.press("Control+ArrowLeft")
+    check(shot(page) == before, f"{name}: with Ctrl a key is the browser's")
     for look in ("front", "top", "side", "isometric"):
         before = shot(page)
         page.locator(f"[data-look={look}]").click()

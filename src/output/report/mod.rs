@@ -5,7 +5,7 @@
 //! | page | the words and tables, readable without a script | `templates/report.html`, `tables` |
 //! | nesting | the pieces of the cut list on their stock bars | `nesting` |
 //! | scene | geometry and figures of the 3D view as JSON | `scene`, `packed` |
-//! | script | 3D view, sorting, searching, plots | `app.js`, `vendor/` |
+//! | script | 3D view, sorting, searching, plots | `app/`, `vendor/` |
 //!
 //! **Safety.** A mesh may come from anyone, and so may the names in it. The template engine escapes
 //! every text; the data block cannot end its element (`script_safe`); and the page forbids by a
@@ -34,7 +34,18 @@ use tables::Tables;
 
 const STYLE: &str = concat!(include_str!("vendor/uplot.min.css"), include_str!("style.css"));
 const VENDOR: &str = include_str!("vendor/vendor.min.js");
-const APP: &str = include_str!("app.js");
+/// The script of the page: one function, so that nothing of it is seen outside.
+const APP: &str = concat!(
+    "(() => {\n\"use strict\";\n",
+    include_str!("app/data.js"),
+    include_str!("app/colours.js"),
+    include_str!("app/viewer.js"),
+    include_str!("app/selection.js"),
+    include_str!("app/table.js"),
+    include_str!("app/plots.js"),
+    include_str!("app/start.js"),
+    "})();\n"
+);
 
 /// What a report is made of.
 pub struct Report<'a> {
