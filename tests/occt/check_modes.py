@@ -9,10 +9,12 @@ array do, in which every two values of different columns meet at least once.
 
 Every solid must be valid, closed and the right side out, and have the volume the file states, which
 the program has from a formula: to 1e-9 where nothing is cut oblique, else to what OCCT's own edges
-allow.  Without joints and tapers that volume is area times length, both from the list of properties.
+allow.  Without joints and tapers that volume is area times length, both from the list of
+properties.
 
 Needs the PyPI package cadquery-ocp.  Exit code 1 if anything is wrong.
 """
+
 from __future__ import annotations
 
 import subprocess
@@ -24,8 +26,20 @@ from pathlib import Path
 from check_step import Leaf, Reader, below, faults_of_shape, property_of, volume
 from OCP.TopAbs import TopAbs_SOLID
 
-PROFILES = ["auto", "round", "tube", "rectangle", "box", "ellipse", "i", "c", "l", "freeform",
-            "catalogue:CHS", "catalogue:IPE,L,RHS"]
+PROFILES = [
+    "auto",
+    "round",
+    "tube",
+    "rectangle",
+    "box",
+    "ellipse",
+    "i",
+    "c",
+    "l",
+    "freeform",
+    "catalogue:CHS",
+    "catalogue:IPE,L,RHS",
+]
 LOFTS = ["constant", "taper", "multi"]
 JOINTS = ["none", "sphere", "mitre", "trim"]
 SAMPLES = ["y_form", "four_fixings", "cantilever"]
@@ -38,7 +52,7 @@ CUT = 1e-6
 
 
 def modes():
-    """The rows of the array: 12 × 4 rows for the two longest columns, the others turned over them."""
+    """The rows of the array: 12 × 4 for the two longest columns, the others turned over them."""
     for p, profile in enumerate(PROFILES):
         for j, joints in enumerate(JOINTS):
             yield profile, LOFTS[(p + j) % 3], joints, SAMPLES[(p + 2 * j) % 3]
@@ -74,8 +88,24 @@ def run(program: Path, samples: Path, folder: Path, number: int, mode):
     profile, loft, joints, sample = mode
     step = folder / f"{number:02}.step"
     done = subprocess.run(
-        [program, "reconstruct", samples / f"{sample}.obj", "-o", step, "-q", "--profile", profile,
-         "--loft", loft, "--joints", joints], capture_output=True, text=True, check=False)
+        [
+            program,
+            "reconstruct",
+            samples / f"{sample}.obj",
+            "-o",
+            step,
+            "-q",
+            "--profile",
+            profile,
+            "--loft",
+            loft,
+            "--joints",
+            joints,
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     return step, None if done.returncode == 0 else done.stderr.strip()
 
 
@@ -88,7 +118,9 @@ def main() -> int:
     assert are_all_pairs_there(rows), "a pair of values is missing"
     wrong = parts = 0
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor() as pool:
-        jobs = [pool.submit(run, program, samples, Path(folder), i, row) for i, row in enumerate(rows)]
+        jobs = [
+            pool.submit(run, program, samples, Path(folder), i, row) for i, row in enumerate(rows)
+        ]
         for mode, job in zip(rows, jobs):
             step, said = job.result()
             faults = [said] if said else []
