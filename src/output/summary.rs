@@ -304,7 +304,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 }
 
 /// A count as "1,234,567".
-fn grouped(n: usize) -> String {
+pub(super) fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut out = String::new();
     for (i, c) in digits.chars().enumerate() {

@@ -27,7 +27,7 @@ use sha2::{Digest, Sha256};
 
 use super::cut_list::CutList;
 use super::picture::svg_of_beams;
-use super::summary::Summary;
+use super::summary::{Summary, grouped};
 use super::view::View;
 pub use measure::{Measures, Peer};
 use tables::Tables;
@@ -77,7 +77,7 @@ struct Page<'a> {
     picture: String,
     data: String,
     /// Triangles shown and triangles there are, when that is less.
-    thinned: Option<[usize; 2]>,
+    thinned: Option<[String; 2]>,
 }
 
 /// Writes a report.
@@ -99,7 +99,7 @@ pub fn write(report: &Report<'_>, out: &mut dyn Write) -> io::Result<()> {
         cut_list: report.cut_list,
         picture: svg_of_beams(report.view),
         data: script_safe(&serde_json::to_string(&scene)?),
-        thinned: scene.thinned(),
+        thinned: scene.thinned().map(|counts| counts.map(grouped)),
     };
     out.write_all(page.render().map_err(io::Error::other)?.as_bytes())
 }
