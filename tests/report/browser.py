@@ -7,7 +7,15 @@ import subprocess
 import sys
 from pathlib import Path
 
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import (
+    Browser,
+    ConsoleMessage,
+    Dialog,
+    FloatRect,
+    Locator,
+    Page,
+    Request,
+)
 
 #: Software rendering, and nothing that looks for a network.
 FLAGS = [
@@ -45,19 +53,24 @@ def opened(browser: Browser, html: Path) -> tuple[Page, list[str]]:
     faults: list[str] = []
     # The software renderer warns of its own slowness when pixels are read back.
     own = ("GPU stall", "GL Driver")
-    page.on(
-        "console",
-        lambda m: (
-            m.type in ("error", "warning")
-            and not any(word in m.text for word in own)
-            and faults.append(m.text)
-        ),
-    )
-    page.on("pageerror", lambda e: faults.append(str(e)))
-    page.on("dialog", lambda d: (faults.append(f"dialog {d.message}"), d.dismiss()))
-    page.on(
-        "request", lambda r: r.url.startswith(("file:", "blob:", "data:")) or faults.append(r.url)
-    )
+
+    def said(message: ConsoleMessage) -> None:
+        is_own = any(word in message.text for word in own)
+        if message.type in ("error", "warning") and not is_own:
+            faults.append(message.text)
+
+    def asked(dialog: Dialog) -> None:
+        faults.append(f"dialog {dialog.message}")
+        dialog.dismiss()
+
+    def fetched(request: Request) -> None:
+        if not request.url.startswith(("file:", "blob:", "data:")):
+            faults.append(request.url)
+
+    page.on("console", said)
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.on("dialog", asked)
+    page.on("request", fetched)
     page.goto(html.as_uri())
     page.wait_for_selector("#view canvas")
     return page, faults
@@ -71,6 +84,15 @@ def shot(page: Page) -> bytes:
 
 def texts(page: Page, selector: str) -> list[list[str]]:
     """The cells of the rows of a table."""
-    return page.locator(selector).evaluate_all(
+    cells: list[list[str]] = page.locator(selector).evaluate_all(
         "rows => rows.map(r => [...r.cells].map(c => c.textContent))"
     )
+    return cells
+
+
+def frame(element: Locator) -> FloatRect:
+    """Where an element is on the page."""
+    box = element.bounding_box()
+    if box is None:
+        sys.exit(f"failed: {element} is not to be seen")
+    return box

@@ -91,8 +91,9 @@ def main() -> None:
         for sample in ["cantilever", "four_fixings", "quadpod"]:
             mesh = samples / f"{sample}.obj"
             peer, listed = folder / f"{sample}.cg", folder / f"{sample}.json"
-            march = ["skeleton", mesh, "-o", peer, "-q", "--orientation", "global"]
-            subprocess.run([program, *march], check=True)
+            subprocess.run(
+                [program, "skeleton", mesh, "-o", peer, "-q", "--orientation", "global"], check=True
+            )
             options = ("--stock-length", "400", "--max-profiles", "2", "--compare", peer)
             report(program, mesh, folder, *options, "--cut-list", listed)
             html = report(program, mesh, folder, *options)

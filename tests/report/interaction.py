@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from browser import check, shot, texts
+from browser import check, frame, shot, texts
 from playwright.sync_api import Browser, Page
 
 #: Colour of the pin that marks the place of a finding.
@@ -94,7 +94,7 @@ def view(page: Page, name: str) -> None:
         before = shot(page)
         page.locator(f"[data-look={look}]").click()
         check(shot(page) != before, f"{name}: {look}")
-    box = host.bounding_box() or {}
+    box = frame(host)
     middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     before = shot(page)
     page.mouse.move(*middle)
@@ -173,7 +173,7 @@ def touch(browser: Browser, html: Path, pictures: Path) -> None:
     page.screenshot(path=pictures / "telephone.png")
     fits = page.evaluate("document.documentElement.scrollWidth") <= 390
     check(fits, "telephone: the page is as wide as the screen")
-    box = page.locator("#view").bounding_box() or {}
+    box = frame(page.locator("#view"))
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     session = context.new_cdp_session(page)
 
