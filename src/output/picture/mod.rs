@@ -11,7 +11,7 @@
 //! | file | how |
 //! |---|---|
 //! | `.png` | triangles drawn into a depth buffer at twice the size |
-//! | `.svg` | what is seen of the beams as polygons, outlines of the mesh, true text |
+//! | `.svg` | what is seen of mesh and beams as polygons, true text |
 
 mod camera;
 mod layers;

@@ -1,4 +1,5 @@
-//! Shapes: the mesh as a pale silhouette, beams from back to front, the skeleton on top.
+//! Shapes: the mesh from back to front; beside it the beams in its pale silhouette, with the skeleton
+//! on top.
 //!
 //! Inside a panel a tenth of a pixel is the unit, so that corners are whole numbers.
 //! Only presentation attributes are used, no style sheet: a page with a strict policy may hold it.
@@ -64,12 +65,14 @@ fn open([width, height]: [f64; 2]) -> String {
 fn draw(text: &mut String, model: &Model, panel: &Panel) {
     let camera = model.camera(panel);
     text.push_str("<g transform=\"scale(.1)\">\n");
-    silhouette(text, &model.mesh, &camera, if panel.beams { 0.25 } else { 0.9 });
     if panel.beams {
+        silhouette(text, &model.mesh, &camera);
         solids(text, &model.beams, &camera, panel);
         lines(text, &model.lines, &camera);
+        rim(text, &model.mesh, &camera);
+    } else {
+        solids(text, &model.mesh, &camera, panel);
     }
-    rim(text, &model.mesh, &camera);
     text.push_str("</g>\n");
 }
 
@@ -92,12 +95,12 @@ fn union(triangles: impl Iterator<Item = [Point3<f64>; 3]>) -> String {
 }
 
 /// All faces that look to the viewer, as one shape a colour.
-fn silhouette(text: &mut String, mesh: &[Facet], camera: &Camera, opacity: f64) {
+fn silhouette(text: &mut String, mesh: &[Facet], camera: &Camera) {
     for colour in [DESIGN, NON_DESIGN] {
         let path = union(facing(mesh.iter().filter(|f| f.colour == colour), camera));
         if !path.is_empty() {
             let fill = hex(colour);
-            let _ = writeln!(text, "<path fill=\"{fill}\" opacity=\"{opacity}\" d=\"{path}\"/>");
+            let _ = writeln!(text, "<path fill=\"{fill}\" opacity=\".25\" d=\"{path}\"/>");
         }
     }
 }
