@@ -37,6 +37,7 @@
 //! in: a turned mesh gives the turned result, a scaled one the scaled result, and the same input
 //! the same bytes.
 
+mod cluster;
 pub mod evaluate;
 pub mod finding;
 pub mod frame;
@@ -45,6 +46,7 @@ pub mod mesh;
 pub mod observer;
 pub mod output;
 pub mod pipeline;
+mod saddle;
 pub mod section;
 mod segment;
 pub mod skeleton;

@@ -68,7 +68,7 @@ struct Built {
 }
 
 /// The frame of a mesh whose points are moved by `noise` mm either way.
-fn built(truth: &TrueFrame, noise: f64, joint: JointKind, loft: Loft) -> Built {
+fn built(truth: &TrueFrame, noise: f64, joint: JointKind, choice: &str, loft: Loft) -> Built {
     let mut seed = 1u32;
     let mut shake = move |x: f64| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -80,7 +80,8 @@ fn built(truth: &TrueFrame, noise: f64, joint: JointKind, loft: Loft) -> Built {
     let march = skeleton::march(&surface, &SkeletonParams::default(), &mut ()).expect("a skeleton");
     let all = sections(&surface, &march.skeleton);
     let mut frame = normalize(&march.skeleton, &all, &surface, &FrameParams::default()).frame;
-    let profiles = ProfileParams { loft, ..ProfileParams::default() };
+    let choice = choice.parse().expect("a choice of profiles");
+    let profiles = ProfileParams { loft, choice, ..ProfileParams::default() };
     match_profiles(&mut frame, &profiles, Catalogue::builtin()).expect("profiles");
     let (joints, _) = joints(&frame, &surface.interfaces, joint);
     Built { frame, joints }
@@ -108,13 +109,13 @@ fn share_a_product(a: &Part, b: &Part) -> bool {
         && a.properties == b.properties
 }
 
-fn assert_equal(case: &Symmetric, joint: JointKind, loft: Loft) {
+fn assert_equal(case: &Symmetric, joint: JointKind, choice: &str, loft: Loft) {
     let Symmetric { name, truth, equal } = case;
-    let built = built(truth, 0.06, joint, loft);
+    let built = built(truth, 0.06, joint, choice, loft);
     let list = CutList::new(&built.frame, &built.joints, &CutListParams::default());
     let document = assembly(name, &built.frame, &built.joints, 7850.0).expect("solids").document;
     let parts = &document.groups[0].parts;
-    let says = format!("{name}, {joint:?}, {loft:?}");
+    let says = format!("{name}, {joint:?}, {choice}, {loft:?}");
     for equal in equal {
         let beams: Vec<usize> = equal.iter().map(|&s| built.beam_of(truth, s)).collect();
         let first = &built.frame.beams[beams[0]];
@@ -155,14 +156,45 @@ fn assert_equal(case: &Symmetric, joint: JointKind, loft: Loft) {
 fn equal_beams_of_symmetric_parts_are_one_piece_and_one_product() {
     for case in [tripod(), gable(), four_legs()] {
         for joint in [JointKind::None, JointKind::Sphere, JointKind::Mitre, JointKind::Trim] {
-            assert_equal(&case, joint, Loft::Constant);
+            assert_equal(&case, joint, "auto", Loft::Constant);
         }
+    }
+}
+
+#[test]
+fn equal_beams_are_one_piece_whatever_their_profile() {
+    for choice in ["rectangle", "ellipse", "freeform", "catalogue:L"] {
+        assert_equal(&four_legs(), JointKind::None, choice, Loft::Constant);
     }
 }
 
 #[test]
 fn equal_beams_taper_alike() {
     for loft in [Loft::Taper, Loft::Multi] {
-        assert_equal(&four_legs(), JointKind::None, loft);
+        for choice in ["auto", "rectangle", "freeform"] {
+            assert_equal(&four_legs(), JointKind::None, choice, loft);
+        }
+    }
+}
+
+#[test]
+fn legs_drawn_a_little_longer_are_another_piece() {
+    let mut uneven = four_legs();
+    for foot in [5, 7] {
+        uneven.truth.nodes[foot][2] -= 0.45; // an eighth of their radius
+    }
+    uneven.equal = vec![vec![4, 6], vec![5, 7]];
+    for choice in ["auto", "rectangle", "freeform"] {
+        for loft in [Loft::Constant, Loft::Taper] {
+            assert_equal(&uneven, JointKind::None, choice, loft);
+            let built = built(&uneven.truth, 0.06, JointKind::None, choice, loft);
+            let list = CutList::new(&built.frame, &built.joints, &CutListParams::default());
+            let [short, long] = [4, 5].map(|strut| {
+                let mark = mark(built.beam_of(&uneven.truth, strut));
+                let piece = list.pieces.iter().find(|p| p.marks.contains(&mark));
+                piece.expect("a line of the list").length_mm
+            });
+            assert!((long - short - 0.45).abs() < 0.15, "{choice}, {loft:?}: {short} and {long}");
+        }
     }
 }

@@ -15,10 +15,10 @@ use super::params::ProfileParams;
 use super::profiles::EQUAL;
 use super::shape::{Loft, ShapeStation};
 use super::{Beam, Frame};
-use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
 use crate::section::matching::{MatchError, MatchTarget, ProfileChoice, equalize, match_profile};
 use crate::section::properties::Contours;
+use crate::section::{Profile, Shape};
 
 /// A place along a beam, and what is to stand there.
 struct Place {
@@ -39,18 +39,16 @@ pub(super) fn shape(
     if profile.designation.is_some() {
         return Ok(()); // it is rolled, and the same all along
     }
-    let choice: ProfileChoice = profile.family().parse().unwrap_or_default();
-    // A freeform outline is that of its own beam.
-    let tolerance = if choice == ProfileChoice::Freeform { 0.0 } else { EQUAL };
+    let profile = profile.clone();
     let mut sized: BTreeMap<usize, Vec<(f64, Profile)>> = BTreeMap::new();
     for places in alike(places(frame, group, params.loft)).into_values() {
         let targets: Vec<(MatchTarget, f64)> =
             places.iter().map(|p| (p.target.clone(), 1.0)).collect();
-        let equal = equalize(&targets, tolerance);
+        let equal = equalize(&targets, EQUAL);
         let profiles: Vec<Profile> = equal
             .targets
             .iter()
-            .map(|t| match_profile(t, &choice, params.mode, catalogue).map(|m| m.profile))
+            .map(|target| sized_as(&profile, target, params, catalogue))
             .collect::<Result<_, _>>()?;
         for (place, &size) in places.iter().zip(&equal.group_of) {
             sized.entry(place.beam).or_default().push((place.at, profiles[size].clone()));
@@ -70,6 +68,22 @@ pub(super) fn shape(
         beam.shape.stations = sizes.iter().map(station).collect();
     }
     Ok(())
+}
+
+/// A profile of the same family for another place: a freeform outline grows as it is, so that
+/// equal beams keep one outline; others are matched anew.
+fn sized_as(
+    profile: &Profile,
+    target: &MatchTarget,
+    params: &ProfileParams,
+    catalogue: &Catalogue,
+) -> Result<Profile, MatchError> {
+    if let Shape::Freeform(_) = profile.shape {
+        let grown = target.area / profile.properties()?.area;
+        return Ok(Profile::new(profile.shape.scaled(grown.sqrt()))?);
+    }
+    let choice: ProfileChoice = profile.family().parse().unwrap_or_default();
+    Ok(match_profile(target, &choice, params.mode, catalogue)?.profile)
 }
 
 fn places(frame: &Frame, group: &[usize], loft: Loft) -> Vec<Vec<Place>> {

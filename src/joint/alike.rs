@@ -6,16 +6,17 @@
 //! ```
 //!
 //! A mesh is never quite symmetric, so that equal members of a symmetric part come out a little
-//! different. The first beam of a kind is its *model*; others that reach no farther from it than
-//! [`SAME_PIECE`] at any corner are made as the model is. A model is laid into a beam by a turn
-//! about its axis, and end for end where the section allows it: these are all motions that keep a
-//! beam on its axis. A piece and its mirror image are two pieces where no such motion brings one
-//! onto the other.
+//! different. Beams are one kind where no corner of one lies farther from that of another than
+//! [`SAME_PIECE`], unless they fall into two kinds with a gap between them. The first beam of a kind
+//! is its *model*; the others are made as it is. A model is laid into a beam by a turn about its
+//! axis, and end for end where the section allows it: these are all motions that keep a beam on its
+//! axis. A piece and its mirror image are two pieces where no such motion brings one onto the other.
 
 use nalgebra::{Isometry3, Point2, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
 
-use super::cut::slopes;
+use super::cut::{rise, slopes};
 use super::{CutBeam, Joints, PER_QUARTER};
+use crate::cluster;
 use crate::frame::{Beam, Frame};
 use crate::section::outline::{Outline, Region};
 use crate::section::properties::Contours;
@@ -25,6 +26,14 @@ use crate::segment::distance;
 /// parts meshed three elements to a radius differ by half of it at oblique cuts; the gap it may
 /// leave at a joint of a bar of 60 mm, 3 mm, is the widest root gap a weld is made with.
 pub const SAME_PIECE: f64 = 0.1;
+
+/// Beams of one kind follow each other by less than this, in section radii: half of
+/// [`SAME_PIECE`]. Members that were drawn to differ by more, with nothing between, stay apart
+/// however near their lengths and angles are.
+const NEXT_PIECE: f64 = 0.05;
+
+/// Beams nearer than this, in section radii, are compared with the others as one: what a saw can do.
+const NO_OTHER: f64 = 0.01;
 
 /// Farthest two outlines may lie from each other, in section radii: a tenth of [`SAME_PIECE`],
 /// since they run all along the beam. Outlines compared as polygons are off by a tenth of it.
@@ -40,28 +49,57 @@ pub struct Alike {
     /// From the solid of the model to that of the beam, both in their own coordinates: the first
     /// two across (y and z of the beam turned by its roll), the third along, from the first node.
     pub motion: Isometry3<f64>,
+    /// Farthest a corner of the beam lies from that of the model laid into it, mm.
+    pub off: f64,
 }
 
 /// Finds the beams that are one piece.
-///
-/// Every beam is compared with the models before it only, so that no chain of small differences
-/// joins what differs much.
 pub fn alike(frame: &Frame, joints: &Joints) -> Vec<Alike> {
     let all: Vec<Member<'_>> =
         frame.beams.iter().zip(&joints.beams).map(|(beam, cut)| Member::new(beam, cut)).collect();
+    let group_of = groups(&all);
     let mut models: Vec<usize> = Vec::new();
-    all.iter()
-        .enumerate()
-        .map(|(i, own)| {
-            let fitting = models.iter().enumerate().find_map(|(kind, &model)| {
-                all[model].laid_into(own).map(|motion| Alike { kind, model, motion })
-            });
-            fitting.unwrap_or_else(|| {
-                models.push(i);
-                Alike { kind: models.len() - 1, model: i, motion: own.centring() }
+    let mut found: Vec<Alike> = Vec::with_capacity(all.len());
+    for (i, own) in all.iter().enumerate() {
+        let of_group = models.iter().enumerate().filter(|(_, m)| group_of[**m] == group_of[i]);
+        let fitting = of_group
+            .filter_map(|(kind, &model)| {
+                // A beam that stands for another is up to so much nearer to the rest.
+                let laid = all[model].laid_into(own, SAME_PIECE + 2.0 * NO_OTHER)?;
+                Some(Alike { kind, model, motion: laid.motion, off: laid.off * own.radius })
             })
-        })
-        .collect()
+            .next();
+        found.push(fitting.unwrap_or_else(|| {
+            models.push(i);
+            Alike { kind: models.len() - 1, model: i, motion: own.centring(), off: 0.0 }
+        }));
+    }
+    found
+}
+
+/// Number of the group of each member.
+///
+/// Of members that hardly differ only the first is compared with the rest: a frame has few kinds.
+fn groups(all: &[Member<'_>]) -> Vec<usize> {
+    let mut leaders: Vec<usize> = Vec::new();
+    let mut leader_of = Vec::with_capacity(all.len());
+    for (i, own) in all.iter().enumerate() {
+        let is_other = |&&l: &&usize| all[l].laid_into(own, NO_OTHER).is_some();
+        let leader = leaders.iter().position(|l| is_other(&l)).unwrap_or_else(|| {
+            leaders.push(i);
+            leaders.len() - 1
+        });
+        leader_of.push(leader);
+    }
+    let distance = |a: usize, b: usize| {
+        all[leaders[a]].laid_into(&all[leaders[b]], SAME_PIECE).map(|laid| laid.off)
+    };
+    let groups = cluster::groups(leaders.len(), distance, SAME_PIECE, NEXT_PIECE);
+    let mut group_of_leader = vec![0; leaders.len()];
+    for (g, group) in groups.iter().enumerate() {
+        group.iter().for_each(|&l| group_of_leader[l] = g);
+    }
+    leader_of.into_iter().map(|l| group_of_leader[l]).collect()
 }
 
 /// A beam as it is compared.
@@ -79,6 +117,13 @@ struct Member<'a> {
 struct Turn {
     angle: f64,
     swapped: bool,
+}
+
+/// A piece laid into a beam.
+struct Laid {
+    motion: Isometry3<f64>,
+    /// Farthest a corner is off, in section radii.
+    off: f64,
 }
 
 impl Turn {
@@ -110,21 +155,21 @@ impl<'a> Member<'a> {
         Isometry3::translation(0.0, 0.0, self.middle() - self.built_middle())
     }
 
-    /// The motion that lays this piece into a beam, if it fits there.
-    fn laid_into(&self, beam: &Member<'_>) -> Option<Isometry3<f64>> {
+    /// Lays this piece into a beam, if no corner is off by more than `most` section radii there.
+    fn laid_into(&self, beam: &Member<'_>, most: f64) -> Option<Laid> {
         let longer = 0.5 * (self.cut.axis_length - beam.cut.axis_length).abs() / self.radius;
-        let is_same_bar = self.beam.shape.profile == beam.beam.shape.profile
-            && self.beam.shape.stations.len() == beam.beam.shape.stations.len();
-        if !is_same_bar || longer > SAME_PIECE {
+        if longer > most || !self.is_bar_of(beam) {
             return None;
         }
-        let (_, turn) = self
+        let mut turns: Vec<(f64, Turn)> = self
             .turns(beam)
             .into_iter()
             .map(|turn| (longer + self.cuts_off(beam, turn), turn))
-            .filter(|&(off, turn)| off <= SAME_PIECE && self.has_outlines_of(beam, turn))
-            // The first of equals.
-            .reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+            .filter(|(off, _)| *off <= most)
+            .collect();
+        // The first of equals.
+        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (off, turn) = turns.into_iter().find(|(_, turn)| self.has_outlines_of(beam, *turn))?;
         let own = self.built_middle();
         let swap = if turn.swapped {
             UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
@@ -133,7 +178,13 @@ impl<'a> Member<'a> {
         };
         let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn.angle) * swap;
         let along = beam.middle() - if turn.swapped { -own } else { own };
-        Some(Isometry3::from_parts(Translation3::new(0.0, 0.0, along), turned))
+        let motion = Isometry3::from_parts(Translation3::new(0.0, 0.0, along), turned);
+        Some(Laid { motion, off })
+    }
+
+    fn is_bar_of(&self, beam: &Member<'_>) -> bool {
+        self.beam.shape.profile == beam.beam.shape.profile
+            && self.beam.shape.stations.len() == beam.beam.shape.stations.len()
     }
 
     /// The turns that may bring the section onto itself.
@@ -143,8 +194,9 @@ impl<'a> Member<'a> {
             .into_iter()
             .flat_map(|swapped| {
                 if self.is_round() {
-                    let angle = self.turn_of_cuts(beam, swapped);
-                    vec![Turn { angle, swapped }]
+                    let saddles = self.turns_of_saddles(beam, swapped);
+                    let angles = std::iter::once(self.turn_of_cuts(beam, swapped)).chain(saddles);
+                    angles.map(|angle| Turn { angle, swapped }).collect::<Vec<_>>()
                 } else {
                     quarters.clone().map(|angle| Turn { angle, swapped }).collect()
                 }
@@ -184,10 +236,42 @@ impl<'a> Member<'a> {
         f64::atan2(sin, cos)
     }
 
+    /// The turns about the axis that bring the members of saddles onto those of the beam.
+    fn turns_of_saddles(&self, beam: &Member<'_>, swapped: bool) -> Vec<f64> {
+        let swap = Turn { angle: 0.0, swapped };
+        let pairs = (0..2).filter_map(|end| {
+            let own = self.cut.ends[if swapped { 1 - end } else { end }].saddle?;
+            Some((swap.across(&own.along()), beam.cut.ends[end].saddle?.along()))
+        });
+        pairs
+            .map(|(a, b)| a.perp(&b).atan2(a.dot(&b)))
+            .flat_map(|angle| [angle, angle + std::f64::consts::PI])
+            .collect()
+    }
+
     /// How far the cuts are off at the corners after a turn, in section radii.
     fn cuts_off(&self, beam: &Member<'_>, turn: Turn) -> f64 {
+        let has_saddle = |m: &Member<'_>| m.cut.ends.iter().any(|e| e.saddle.is_some());
+        if has_saddle(self) || has_saddle(beam) {
+            return self.saddles_off(beam, turn);
+        }
         let own = self.turned_slopes(turn);
         own.iter().zip(&beam.slopes).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    }
+
+    /// [`cuts_off`](Self::cuts_off) at places all around.
+    fn saddles_off(&self, beam: &Member<'_>, turn: Turn) -> f64 {
+        let places = (0..4 * PER_QUARTER).map(|i| {
+            let angle = i as f64 * std::f64::consts::FRAC_PI_2 / PER_QUARTER as f64;
+            Vector2::new(angle.cos(), angle.sin()) * self.radius
+        });
+        let off = |place: Vector2<f64>, end: usize| {
+            let there = rise(beam.beam, &beam.cut.ends[end], &(turn.across(&place)).into());
+            let own = if turn.swapped { 1 - end } else { end };
+            let here = rise(self.beam, &self.cut.ends[own], &place.into());
+            (if turn.swapped { -here } else { here } - there).abs()
+        };
+        places.map(|p| off(p, 0).max(off(p, 1))).fold(0.0, f64::max) / self.radius
     }
 
     fn has_outlines_of(&self, beam: &Member<'_>, turn: Turn) -> bool {
@@ -211,6 +295,9 @@ fn is_near(own: &Region, other: &Region, turn: Turn, most: f64) -> bool {
     let outlines = |r: &Region| -> Vec<Vec<Point2<f64>>> {
         Contours::of_region(r, PER_QUARTER).polygons().cloned().collect()
     };
+    if own == other && !turn.swapped && turn.angle == 0.0 {
+        return true;
+    }
     if let (Outline::Circle { radius: a, .. }, Outline::Circle { radius: b, .. }) =
         (&own.outer, &other.outer)
         && own.holes.is_empty()
@@ -243,6 +330,7 @@ mod tests {
     use crate::frame::shape::BeamShape;
     use crate::frame::{BeamAxes, BeamSection, Node, NodeId, NodeKind};
     use crate::joint::EndCut;
+    use crate::saddle::Saddle;
     use crate::section::{Profile, Shape};
 
     /// A beam of 100 mm or so along z, its section axes those of the model, and its cuts by their
@@ -394,10 +482,55 @@ mod tests {
 
     #[test]
     fn small_differences_are_one_piece_and_do_not_add_up() {
-        // A tenth of the radius, at each end: 2 mm of length.
-        let lengths = [100.0, 101.9, 103.8, 98.1];
-        let beams = lengths.map(|l| beam(&ROUND, l, [[0.0; 2]; 2])).to_vec();
-        assert_eq!(kinds(beams), [0, 0, 1, 0]);
+        let of_lengths = |shape: &Shape, lengths: &[f64]| {
+            found(lengths.iter().map(|&l| beam(shape, l, [[0.0; 2]; 2])).collect())
+        };
+        for shape in [ROUND, FLAT] {
+            // Up to a tenth of the radius at each end: 2 mm of length.
+            let lengths = [100.0, 100.9, 101.8, 102.7, 99.6, 104.0];
+            let all = of_lengths(&shape, &lengths);
+            for (a, length) in all.iter().zip(lengths) {
+                assert!((length - lengths[a.model]).abs() <= 2.0, "{length} is as {}", a.model);
+            }
+            let kinds = all.iter().map(|a| a.kind).max();
+            assert!((1..4).contains(&kinds.unwrap()), "{kinds:?}");
+        }
+    }
+
+    #[test]
+    fn a_gap_parts_two_kinds_that_differ_little() {
+        let lengths = [100.0, 101.5, 100.1, 101.4];
+        for shape in [ROUND, FLAT] {
+            let beams = lengths.map(|l| beam(&shape, l, [[0.0; 2]; 2])).to_vec();
+            assert_eq!(kinds(beams), [0, 1, 0, 1]);
+            let leaning =
+                [0.5, 0.57, 0.503, 0.568].map(|g| beam(&shape, 100.0, [[g, 0.0], [0.0; 2]]));
+            assert_eq!(kinds(leaning.to_vec()), [0, 1, 0, 1]);
+        }
+    }
+
+    #[test]
+    fn what_is_off_is_told_in_mm() {
+        let all =
+            found(vec![beam(&ROUND, 100.0, [[0.0; 2]; 2]), beam(&ROUND, 100.5, [[0.0; 2]; 2])]);
+        assert_eq!((all[1].kind, all[0].off), (0, 0.0));
+        assert!((all[1].off - 0.25).abs() < 1e-9, "{}", all[1].off);
+    }
+
+    #[test]
+    fn saddles_are_turned_onto_each_other() {
+        let coped = |angle: f64, rise: f64, side: usize| {
+            let (beam, mut cut) = beam(&ROUND, 100.0, [[0.0; 2]; 2]);
+            let axis = Vector3::new(angle.cos(), angle.sin(), if side == 0 { rise } else { -rise });
+            let axis = Unit::new_normalize(axis);
+            cut.ends[side].saddle = Some(Saddle { axis, radius: 15.0, above: side == 1 });
+            (beam, cut)
+        };
+        let square = vec![coped(0.0, 0.0, 0), coped(1.0, 0.0, 0), coped(2.5, 0.0, 1)];
+        assert_eq!(kinds(square), [0, 0, 0]);
+        let leaning =
+            vec![coped(0.0, 0.5, 0), coped(2.0, 0.5, 0), coped(0.7, -0.5, 1), coped(0.0, 0.0, 0)];
+        assert_eq!(kinds(leaning), [0, 0, 0, 1]);
     }
 
     #[test]

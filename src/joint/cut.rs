@@ -1,21 +1,27 @@
 //! One beam with its two ends cut.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Point2, Unit, Vector2, Vector3};
 
 use super::{LEAST_LEFT, PER_QUARTER};
 use crate::frame::Beam;
+use crate::saddle::Saddle;
+use crate::section::outline::{Outline, Region};
 use crate::section::properties::Contours;
 
-/// How an end of a beam is cut: in a plane through its axis.
+/// How an end of a beam is cut: in a plane, or along the side of a round member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndCut {
-    /// Way along the axis from the node to the plane, mm; positive shortens the beam.
+    /// Way along the axis from the node to the cut, mm; positive shortens the beam.
     pub setback: f64,
-    /// Normal of the plane in model coordinates; `None` for a square cut.
+    /// Normal of the plane in model coordinates; `None` for a square cut and for a saddle.
     pub normal: Option<Unit<Vector3<f64>>>,
-    /// Angle between the cut and a square one, rad, 0 to π/2.
+    /// The side of the member, in coordinates of the solid: across (y and z of the beam turned by
+    /// its roll), then along; `None` for a plane.
+    pub saddle: Option<Saddle>,
+    /// Angle between the cut and a square one, rad, 0 to π/2; of a saddle, between the beam and a
+    /// right angle to the member.
     pub angle: f64,
 }
 
@@ -24,7 +30,7 @@ const SQUARE_ENOUGH: f64 = 8.7e-4;
 
 impl EndCut {
     /// At a right angle to the axis, at the node.
-    pub const SQUARE: Self = Self { setback: 0.0, normal: None, angle: 0.0 };
+    pub const SQUARE: Self = Self { setback: 0.0, normal: None, saddle: None, angle: 0.0 };
 
     /// In a plane; `away` is the direction of the beam away from the end.
     pub(super) fn in_plane(
@@ -37,7 +43,7 @@ impl EndCut {
         if angle < SQUARE_ENOUGH {
             return Self { setback, ..Self::SQUARE };
         }
-        Self { setback, normal: Some(normal), angle }
+        Self { setback, normal: Some(normal), saddle: None, angle }
     }
 }
 
@@ -48,11 +54,17 @@ pub struct CutBeam {
     pub ends: [EndCut; 2],
     /// Length along the axis between the cuts, mm.
     pub axis_length: f64,
+    /// Mean length over the section, mm: of the square-cut piece of the same volume. Between planes
+    /// it is that along the axis; a saddle leaves more on both its sides.
+    pub mean_length: f64,
+    /// Mean length around the outside, mm: of the square-cut piece of the same surface.
+    pub skin_length: f64,
     /// Length to saw off a bar: from the farthest corner to the farthest, mm.
     pub length: f64,
     /// Turn of the second cut against the first about the axis, rad, in (−π, π]: 0 where both lean
     /// the same way (a parallelogram), π where they lean towards each other (a trapezium); positive
-    /// is clockwise as seen along the beam, from either end.
+    /// is clockwise as seen along the beam, from either end. A saddle leans along its member; on one
+    /// at a right angle both ways are the same, and the turn is in (−π/2, π/2].
     pub twist: f64,
     /// Direction in which each cut rises, rad, from axis y of the profile: clockwise as seen along
     /// the beam from that end, the far end turned up about y; 0 for a square cut.
@@ -68,16 +80,24 @@ impl CutBeam {
         let outline =
             |station: usize| Contours::of_region(&corners[station].region, PER_QUARTER).outer;
         let (first, last) = (outline(0), outline(corners.len() - 1));
-        let lows: Vec<f64> = first.iter().map(|p| start[0] * p.x + start[1] * p.y).collect();
-        let highs: Vec<f64> =
-            last.iter().map(|p| axis_length + end[0] * p.x + end[1] * p.y).collect();
-        let [low, high_of_low] = range(&lows);
-        let [low_of_high, high] = range(&highs);
+        let rises = |outline: &[Point2<f64>], end: usize| -> Vec<f64> {
+            outline.iter().map(|p| rise(beam, &ends[end], p)).collect()
+        };
+        let [low, high_of_low] = range(&rises(&first, 0));
+        let [low_of_high, high] = range(&rises(&last, 1)).map(|z| axis_length + z);
+        let over = |of: &dyn Fn(&Saddle, &Region) -> f64| {
+            let rise = |e: usize| ends[e].saddle.map_or(0.0, |s| of(&s, &corners[0].region));
+            axis_length + rise(1) - rise(0)
+        };
         (low_of_high - high_of_low >= LEAST_LEFT * beam.length).then(|| Self {
             ends,
             axis_length,
+            mean_length: over(&mean_rise),
+            skin_length: over(&|saddle, region| {
+                round(&region.outer).map_or(0.0, |r| saddle.mean_on_circle(r))
+            }),
             length: high - low,
-            twist: twist(start, end),
+            twist: twist(lean(beam, &ends[0]), lean(beam, &ends[1])),
             leans: leans(start, end),
         })
     }
@@ -85,28 +105,92 @@ impl CutBeam {
     /// The beam cut square at its nodes.
     pub(super) fn square(beam: &Beam) -> Self {
         let length = beam.cut_length;
-        Self { ends: [EndCut::SQUARE; 2], axis_length: length, length, twist: 0.0, leans: [0.0; 2] }
+        Self {
+            ends: [EndCut::SQUARE; 2],
+            axis_length: length,
+            mean_length: length,
+            skin_length: length,
+            length,
+            twist: 0.0,
+            leans: [0.0; 2],
+        }
     }
 }
 
-/// Rise of a cut along the axis for each mm along y and z of the profile.
+/// Radius of an outline that is a circle about the axis, mm.
+pub(super) fn round(outline: &Outline) -> Option<f64> {
+    match outline {
+        Outline::Circle { centre, radius } if *centre == Point2::origin() => Some(*radius),
+        _ => None,
+    }
+}
+
+/// Mean height of a saddle over a round section, against where it meets the axis, mm.
+fn mean_rise(saddle: &Saddle, region: &Region) -> f64 {
+    let (mut volume, mut area) = (0.0, 0.0);
+    for (i, outline) in std::iter::once(&region.outer).chain(&region.holes).enumerate() {
+        let sign = if i == 0 { 1.0 } else { -1.0 };
+        let radius = round(outline).unwrap_or(0.0);
+        volume += sign * saddle.over_disc(radius);
+        area += sign * PI * radius * radius;
+    }
+    volume / area
+}
+
+/// How far a cut stands above where it meets the axis, at a point of the section, mm.
+pub(super) fn rise(beam: &Beam, cut: &EndCut, p: &Point2<f64>) -> f64 {
+    match cut.saddle {
+        Some(saddle) => saddle.rise(p),
+        None => Vector2::from(slopes(beam, cut)).dot(&p.coords),
+    }
+}
+
+/// Rise of a cut along the axis for each mm along y and z of the profile, at the axis.
 pub(super) fn slopes(beam: &Beam, cut: &EndCut) -> [f64; 2] {
+    if let Some(saddle) = cut.saddle {
+        return saddle.slope().into();
+    }
     let Some(normal) = cut.normal else { return [0.0; 2] };
     let axes = beam.axes.rolled(beam.shape.roll);
     let along = normal.dot(&axes.x);
     [-normal.dot(&axes.y) / along, -normal.dot(&axes.z) / along]
 }
 
-/// Turn from the direction in which the first cut rises to that of the second.
-fn twist(start: [f64; 2], end: [f64; 2]) -> f64 {
-    if start == [0.0; 2] || end == [0.0; 2] {
-        return 0.0;
+/// Where a cut leans.
+#[derive(Clone, Copy)]
+enum Lean {
+    Nowhere,
+    Towards(Vector2<f64>),
+    /// On a member at a right angle: as much to either side.
+    Along(Vector2<f64>),
+}
+
+fn lean(beam: &Beam, cut: &EndCut) -> Lean {
+    match cut.saddle {
+        Some(saddle) if cut.angle == 0.0 => Lean::Along(saddle.along()),
+        None if cut.normal.is_none() => Lean::Nowhere,
+        _ => Lean::Towards(slopes(beam, cut).into()),
     }
-    let cross = start[0] * end[1] - start[1] * end[0];
-    let dot = start[0] * end[0] + start[1] * end[1];
-    let twist = cross.atan2(dot);
-    // Half a turn either way is the same.
-    if twist < SQUARE_ENOUGH - PI { -twist } else { twist }
+}
+
+/// Turn from the direction in which the first cut leans to that of the second.
+fn twist(start: Lean, end: Lean) -> f64 {
+    let (Lean::Towards(a) | Lean::Along(a), Lean::Towards(b) | Lean::Along(b)) = (start, end)
+    else {
+        return 0.0;
+    };
+    let twist = a.perp(&b).atan2(a.dot(&b));
+    let has_line = matches!(start, Lean::Along(_)) || matches!(end, Lean::Along(_));
+    let half = if has_line { FRAC_PI_2 } else { PI };
+    let twist = if twist > half + SQUARE_ENOUGH {
+        twist - 2.0 * half
+    } else if twist < -half - SQUARE_ENOUGH {
+        twist + 2.0 * half
+    } else {
+        twist
+    };
+    // The farthest turn either way is the same.
+    if twist < SQUARE_ENOUGH - half { -twist } else { twist }
 }
 
 /// Directions of the rises: the first as it is, the second after half a turn of the beam about y.

@@ -12,11 +12,12 @@
 //! | [`JointKind::None`] | square at the nodes | – |
 //! | [`JointKind::Sphere`] | square, set back so that their corners lie on a ball at the node | `sphere` |
 //! | [`JointKind::Mitre`] | where two beams meet, both in the plane that halves their angle | `mitre` |
-//! | [`JointKind::Trim`] | the same; where more meet, in a plane along the side of the thickest | `trim` |
+//! | [`JointKind::Trim`] | the same; where more meet, along the side of the thickest: saddle or plane | `trim` |
 //!
-//! Ends in an interface section lie in its plane with every joint but `none`. All cuts are planes:
-//! a saw makes them, and the solids stay exact. On a round through member a trimmed end enters the
-//! member just so far that its edges touch: the gap a saddle would close is inside the weld.
+//! Ends in an interface section lie in its plane with every joint but `none`. A round bar or tube of
+//! constant section that is trimmed against a thicker round member, which goes on to both sides,
+//! ends in a saddle: a piece of the side of the member. Everything else is cut in planes, as by a
+//! saw; on a round through member such an end enters the member just so far that its edges touch.
 //!
 //! Beams that are cut alike are found by [`alike()`], for the cut list and for shared products.
 //!
@@ -36,7 +37,7 @@ pub use cut::{CutBeam, EndCut};
 pub use sphere::Ball;
 
 use crate::finding::{Finding, FindingKind};
-use crate::frame::{Beam, Frame, NodeId, NodeKind};
+use crate::frame::{Beam, BeamAxes, Frame, NodeId, NodeKind};
 use crate::mesh::InterfaceSection;
 use crate::mesh::interface_section::nearest_section;
 use crate::section::properties::Contours;
@@ -133,6 +134,8 @@ struct End {
     beam: usize,
     /// Which of its ends is here; `None` where it passes.
     side: Option<usize>,
+    /// Its axes, turned as its section is.
+    axes: BeamAxes,
     /// Along the beam, away from the node.
     away: Unit<Vector3<f64>>,
     /// Corners of its outline, from the axis, in model coordinates, mm.
@@ -141,6 +144,8 @@ struct End {
     area: f64,
     /// Whether its outline is a circle.
     is_round: bool,
+    /// Its radius, if it is a round bar or tube of constant section, mm.
+    bar: Option<f64>,
 }
 
 impl End {
@@ -192,7 +197,17 @@ fn end(index: usize, beam: &Beam, side: Option<usize>) -> End {
         corners: corners.collect(),
         area: beam.shape.properties.area,
         is_round: matches!(region.region.outer, crate::section::outline::Outline::Circle { .. }),
+        bar: bar(beam),
+        axes,
     }
+}
+
+/// The radius of a round bar or tube of constant section.
+fn bar(beam: &Beam) -> Option<f64> {
+    let [first, others @ ..] = beam.shape.stations.as_slice() else { return None };
+    let is_round = first.region.holes.iter().all(|hole| cut::round(hole).is_some());
+    let is_constant = others.iter().all(|s| s.region == first.region);
+    cut::round(&first.region.outer).filter(|_| is_round && is_constant)
 }
 
 /// Ends in the plane of the interface section a node belongs to.
@@ -305,7 +320,31 @@ mod tests {
         assert_eq!(joints.beams[0].ends, [EndCut::SQUARE; 2]);
         // Its edges touch the thick bar: √(5² − 3²) from the axis.
         let cut = joints.beams[2].ends[0];
-        assert!((cut.setback - 4.0).abs() < 0.02 && cut.normal.is_none(), "{cut:?}");
+        let saddle = cut.saddle.expect("round on round");
+        assert_eq!((cut.setback, saddle.radius, saddle.above), (5.0, 5.0, false));
+        // Its sides reach down to √(5² − 3²) from the axis.
+        assert!((joints.beams[2].length - 26.0).abs() < 1e-2, "{}", joints.beams[2].length);
+        assert!(joints.beams[2].mean_length > joints.beams[2].axis_length);
+    }
+
+    #[test]
+    fn a_saddle_takes_a_thicker_member_that_goes_on() {
+        let end_of = |nodes: &[[f64; 3]], bars: &[([u32; 2], f64)]| {
+            super::joints(&frame(nodes, bars), &[], JointKind::Trim).0.beams[0].ends[1]
+        };
+        let nodes =
+            [[0.0, 30.0, 20.0], [0.0; 3], [40.0, 0.0, 0.0], [-40.0, 0.0, 0.0], [9.0, -30.0, 0.0]];
+        let [own, there, back] = [[0, 1], [1, 2], [1, 3]];
+        let slim = end_of(&nodes, &[(own, 3.0), (there, 5.0), (back, 5.0)]);
+        assert!(slim.saddle.is_some_and(|s| s.above) && slim.normal.is_none());
+        for plane in [
+            end_of(&nodes, &[(own, 4.9), (there, 5.0), (back, 5.0)]),
+            // The member ends at the node, or goes on thinner.
+            end_of(&nodes, &[(own, 3.0), (there, 5.0), ([1, 4], 3.0)]),
+            end_of(&nodes, &[(own, 3.0), (there, 5.0), (back, 4.0)]),
+        ] {
+            assert_eq!(plane.saddle, None);
+        }
     }
 
     #[test]

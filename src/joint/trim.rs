@@ -1,8 +1,9 @@
 //! Several beams that meet: the thickest goes through, the others stop at its side.
 
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Unit, UnitVector3, Vector3};
 
 use super::{End, EndCut};
+use crate::saddle::Saddle;
 
 /// Beams that go on within this angle of the through member are parts of it: 10°. The through
 /// chord of a truss bends by less at its nodes; the flattest brace leaves it by 15°.
@@ -11,14 +12,41 @@ const STRAIGHT_ON: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// The cuts of all ends at a node.
 pub(super) fn cuts(at: &[End]) -> Vec<Option<EndCut>> {
     let Some(through) = through_member(at) else { return Vec::new() };
-    let axis = through.away;
+    let goes_on = |end: &End| {
+        let between = end.away.angle(&through.away);
+        between.min(std::f64::consts::PI - between) < STRAIGHT_ON
+    };
+    let is_as_thick = |end: &End| end.bar.zip(through.bar).is_some_and(|(a, b)| a >= AS_WIDE * b);
+    let parts = at.iter().filter(|end| goes_on(end) && is_as_thick(end)).count();
+    let is_through = !through.ends() || parts > 1;
     at.iter()
         .map(|end| {
-            let between = end.away.angle(&axis);
-            let goes_on = between.min(std::f64::consts::PI - between) < STRAIGHT_ON;
-            if goes_on { None } else { against(end, through) }
+            if goes_on(end) {
+                return None;
+            }
+            let saddle = if is_through { saddle(end, through) } else { None };
+            saddle.or_else(|| against(end, through))
         })
         .collect()
+}
+
+/// Part of the radius of the through member from which on what goes on beyond the node is part of
+/// it: that of [`AS_THICK`].
+const AS_WIDE: f64 = 0.97;
+
+/// The end along the side of a round through member, for a slimmer round bar or tube.
+fn saddle(end: &End, through: &End) -> Option<EndCut> {
+    let (own, radius) = (end.bar?, through.bar?);
+    if own > Saddle::WIDEST * radius {
+        return None;
+    }
+    let normal = Unit::try_new(*end.away - *through.away * through.away.dot(&end.away), 1e-6)?;
+    let setback = radius / normal.dot(&end.away);
+    let [x, y, z] = [end.axes.y, end.axes.z, end.axes.x].map(|a| a.dot(&through.away));
+    let axis = UnitVector3::new_normalize(Vector3::new(x, y, z));
+    let saddle = Saddle { axis, radius, above: end.side == Some(1) };
+    let plane = EndCut::in_plane(setback, normal, &end.away);
+    Some(EndCut { normal: None, saddle: Some(saddle), ..plane })
 }
 
 /// Part of the largest area from which on a beam is as thick: areas of equal beams are measured to

@@ -251,12 +251,13 @@ fn body(
         .iter()
         .map(|s| station(s, cut.ends[0].setback, cut.axis_length))
         .collect::<Result<Vec<_>, step::BodyError>>()?;
-    let local = |end: &EndCut| match end.normal {
-        Some(normal) => {
+    let local = |end: &EndCut| match (end.saddle, end.normal) {
+        (Some(saddle), _) => step::EndCut::Saddle(saddle),
+        (None, Some(normal)) => {
             let normal = placement.rotation.inverse() * normal.into_inner();
             step::EndCut::Plane { normal }
         }
-        None => step::EndCut::Square,
+        (None, None) => step::EndCut::Square,
     };
     let [start, end] = [local(&cut.ends[0]), local(&cut.ends[1])];
     Ok(Body::Loft(Loft { start, end, ..Loft::between_stations(stations) }))

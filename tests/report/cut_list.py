@@ -21,6 +21,8 @@ COLUMNS = [
     "axis_length_mm",
     "angle_1_deg",
     "angle_2_deg",
+    "saddle_1_mm",
+    "saddle_2_mm",
     "twist_deg",
     "unit_mass_kg",
     "mass_kg",
@@ -36,7 +38,7 @@ def cut_list(page: Page, name: str, table: Path, listed: Path) -> None:
     pieces = [dict(zip(lines[0], line)) for line in lines[1 : ends[0]]]
     wanted = [[piece[column].removeprefix("'") for column in COLUMNS] for piece in pieces]
     check(texts(page, "#pieces tbody tr") == wanted, f"{name}: {len(wanted)} pieces as in the CSV")
-    totals = [[line[k] for k in (3, 5, 2, 7, 15, 16)] for line in lines[ends[0] + 2 : ends[1]]]
+    totals = [[line[k] for k in (3, 5, 2, 7, 18, 19)] for line in lines[ends[0] + 2 : ends[1]]]
     totals[-1][0] = "all"
     check(texts(page, "#totals :is(tbody, tfoot) tr") == totals, f"{name}: totals as in the CSV")
 

@@ -6,9 +6,9 @@ pub mod solids;
 use std::f64::consts::TAU;
 
 use beamwright::output::step::{
-    Between, Body, Document, EndCut, Freeform, Group, Loft, Outline, Part, Path, Station,
+    Between, Body, Document, EndCut, Freeform, Group, Loft, Outline, Part, Path, Saddle, Station,
 };
-use nalgebra::{Isometry3, Point2, Rotation2, Vector2, Vector3};
+use nalgebra::{Isometry3, Point2, Rotation2, UnitVector3, Vector2, Vector3};
 
 /// Length of the beams; 75° cuts of the widest section leave some of it.
 pub const LENGTH: f64 = 300.0;
@@ -184,9 +184,42 @@ fn all(profile: Profile) -> Vec<Part> {
     parts
 }
 
+/// Bars or tubes on members little and much thicker, at right angles and slanting.
+fn saddles(name: &'static str, bore: Option<f64>) -> Case {
+    let mut parts = Vec::new();
+    for radius in [22.3, 60.0, 400.0] {
+        for tilt in [0.0_f64, 25.0, -70.0] {
+            let (sin, cos) = tilt.to_radians().sin_cos();
+            let saddle = |azimuth: f64, above| {
+                let axis = Vector3::new(azimuth.cos() * cos, azimuth.sin() * cos, sin);
+                let axis = UnitVector3::new_normalize(axis);
+                EndCut::Saddle(Saddle { axis, radius, above })
+            };
+            let bar = Loft::prism(
+                Outline::circle(20.0),
+                bore.map(Outline::circle).into_iter().collect(),
+                LENGTH,
+            );
+            let mitre = EndCut::Plane { normal: Vector3::new(0.3, -0.2, 1.0) };
+            for (name, start, end) in [
+                ("both", saddle(0.2, false), saddle(1.4, true)),
+                ("start", saddle(2.0, false), mitre),
+                ("end", EndCut::Square, saddle(3.0, true)),
+            ] {
+                let body = Body::Loft(Loft { start, end, ..bar.clone() });
+                let mut part = part(&format!("{name} {tilt} R{radius}"), body);
+                part.placement = placement(parts.len());
+                parts.push(part);
+            }
+        }
+    }
+    Case { name, document: document(name, parts) }
+}
+
 /// Every document of the family.
 pub fn cases() -> Vec<Case> {
     let mut cases = beams();
+    cases.extend([saddles("saddles", None), saddles("saddles_of_tubes", Some(15.0))]);
     cases.extend([solids::solids(), solids::names(), solids::frame()]);
     cases.extend(solids::sizes());
     cases

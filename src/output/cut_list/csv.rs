@@ -18,8 +18,11 @@ const PIECES: [&str; COLUMNS] = [
     "axis_length_mm",
     "angle_1_deg",
     "angle_2_deg",
+    "saddle_1_mm",
+    "saddle_2_mm",
     "twist_deg",
     "lean_deg",
+    "off_mm",
     "area_mm2",
     "unit_mass_kg",
     "mass_kg",
@@ -27,19 +30,21 @@ const PIECES: [&str; COLUMNS] = [
     "branch",
 ];
 
-const COLUMNS: usize = 18;
+const COLUMNS: usize = 21;
 
 /// What the columns mean.
-const LEGEND: [(&str, &str); 10] = [
-    ("mark", "beams cut like this, as in the STEP file, to a tenth of their radius"),
+const LEGEND: [(&str, &str); 12] = [
+    ("mark", "beams cut like this, as in the STEP file"),
     ("length_mm", "to saw off a bar, from the farthest corner to the farthest"),
     ("axis_length_mm", "along the axis between the cuts"),
     ("angle_1_deg, angle_2_deg", "of the cuts at both ends; 0 is square"),
+    ("saddle_1_mm, saddle_2_mm", "diameter of the member the end is cut to fit; 0 is a plane"),
     (
         "twist_deg",
         "turn between the cuts about the axis; 0 a parallelogram, 180 a trapezium, + clockwise",
     ),
     ("lean_deg", "direction in which cut 1 rises, from axis y of the profile, + clockwise"),
+    ("off_mm", "farthest a corner of one of the beams lies from that of the piece"),
     ("area_mm2", "of the profile"),
     ("unit_mass_kg", "of one piece; mass_kg of all"),
     ("unit_surface_m2", "to paint on one piece, without the cuts"),
@@ -63,8 +68,11 @@ pub(super) fn write(list: &CutList, out: &mut dyn Write) -> io::Result<()> {
             p.axis_length_mm.to_string(),
             p.angle_1_deg.to_string(),
             p.angle_2_deg.to_string(),
+            p.saddle_1_mm.to_string(),
+            p.saddle_2_mm.to_string(),
             p.twist_deg.to_string(),
             p.lean_deg.to_string(),
+            p.off_mm.to_string(),
             p.area_mm2.to_string(),
             p.unit_mass_kg.to_string(),
             p.mass_kg.to_string(),
@@ -89,8 +97,8 @@ fn totals(list: &CutList, table: &mut Table<'_>) -> io::Result<()> {
         row[3] = text(&t.profile);
         row[5] = text(&t.standard);
         row[7] = format!("{:.3}", t.length_mm);
-        row[15] = format!("{:.6}", t.mass_kg);
-        row[16] = format!("{:.6}", t.surface_m2);
+        row[18] = format!("{:.6}", t.mass_kg);
+        row[19] = format!("{:.6}", t.surface_m2);
         table.row(row)?;
     }
     let all = list.total();
@@ -98,8 +106,8 @@ fn totals(list: &CutList, table: &mut Table<'_>) -> io::Result<()> {
     row[0] = all.profile;
     row[2] = all.quantity.to_string();
     row[7] = format!("{:.3}", all.length_mm);
-    row[15] = format!("{:.6}", all.mass_kg);
-    row[16] = format!("{:.6}", all.surface_m2);
+    row[18] = format!("{:.6}", all.mass_kg);
+    row[19] = format!("{:.6}", all.surface_m2);
     table.row(row)
 }
 

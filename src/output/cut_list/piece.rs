@@ -33,10 +33,14 @@ pub struct Piece {
     pub length_mm: f64,
     /// Length along the axis between the cuts.
     pub axis_length_mm: f64,
-    /// Cut at the first end; 0 is square.
+    /// Cut at the first end; 0 is square, with a saddle at a right angle to the member.
     pub angle_1_deg: f64,
     /// Cut at the second end.
     pub angle_2_deg: f64,
+    /// Diameter of the round member the first end is a saddle on; 0 for a plane.
+    pub saddle_1_mm: f64,
+    /// Diameter of the round member the second end is a saddle on; 0 for a plane.
+    pub saddle_2_mm: f64,
     /// Turn of the second cut against the first about the axis, −180 to 180; 0 where both lean the
     /// same way, positive clockwise as seen along the piece.
     pub twist_deg: f64,
@@ -44,6 +48,8 @@ pub struct Piece {
     /// the piece from there; 0 for a round one, within half a turn for one that is the same after
     /// it. Pieces that are mirror images differ in its sign or in that of the twist.
     pub lean_deg: f64,
+    /// Farthest a corner of one of the beams lies from that of the piece: they are made equal.
+    pub off_mm: f64,
     /// Area of the profile, mm².
     pub area_mm2: f64,
     /// Mass of one, kg.
@@ -59,7 +65,7 @@ pub struct Piece {
 /// All kinds of pieces, sorted by profile and length, the longest first.
 pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
-    for (i, Alike { kind, .. }) in alike(frame, joints).into_iter().enumerate() {
+    for (i, Alike { kind, off, .. }) in alike(frame, joints).into_iter().enumerate() {
         let beam = &frame.beams[i];
         if kind == pieces.len() {
             pieces.push(piece(beam, &joints.beams[i], params));
@@ -68,6 +74,7 @@ pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> 
         piece.marks.push(mark(i));
         piece.branches.extend(beam.spans().map(|(_, branch)| branch));
         piece.quantity += 1;
+        piece.off_mm = piece.off_mm.max(rounded(off, 3));
     }
     pieces.sort_by(|a, b| {
         let angles = |p: &Piece| (p.angle_1_deg, p.angle_2_deg);
@@ -89,8 +96,11 @@ pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> 
 fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
     let shape = &beam.shape;
     let [a, b] = [&cut.ends[0], &cut.ends[1]].map(|e| rounded(e.angle.to_degrees(), 1));
-    let lean = folded_angle(cut.leans[usize::from(b > a)], shape.profile.shape.symmetry());
-    let volume = mean_area(beam) * cut.axis_length;
+    // Either end may be called the first: the more oblique one is.
+    let first = usize::from(b > a);
+    let lean = folded_angle(cut.leans[first], shape.profile.shape.symmetry());
+    let saddle = |end: usize| cut.ends[end].saddle.map_or(0.0, |s| rounded(2.0 * s.radius, 3));
+    let volume = mean_area(beam) * cut.mean_length;
     Piece {
         piece: String::new(),
         marks: Vec::new(),
@@ -101,15 +111,17 @@ fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
         material: params.material.name.clone(),
         length_mm: rounded(cut.length, 3),
         axis_length_mm: rounded(cut.axis_length, 3),
-        // Either end may be called the first: the more oblique one is.
         angle_1_deg: a.max(b),
         angle_2_deg: a.min(b),
+        saddle_1_mm: saddle(first),
+        saddle_2_mm: saddle(1 - first),
         twist_deg: rounded(cut.twist.to_degrees(), 1),
         lean_deg: rounded(lean.to_degrees(), 1),
+        off_mm: 0.0,
         area_mm2: rounded(shape.properties.area, 3),
         unit_mass_kg: rounded(volume * params.material.density * 1e-9, 6),
         mass_kg: 0.0,
-        unit_surface_m2: rounded(shape.profile.outer_perimeter() * cut.axis_length * 1e-6, 6),
+        unit_surface_m2: rounded(shape.profile.outer_perimeter() * cut.skin_length * 1e-6, 6),
         branches: Vec::new(),
     }
 }

@@ -128,18 +128,23 @@ fn reversed(mut corners: Ring) -> Ring {
     corners
 }
 
-/// Moves the corners of the end levels along their rulings into the cutting planes.
+/// Moves the corners of the end levels along their rulings into the cutting planes, or onto round
+/// members.
 fn cut_ends(loft: &Loft, levels: &mut [Vec<Point3<f64>>]) {
     let last = levels.len() - 1;
     for (cut, end, beside) in [(loft.start, 0, 1), (loft.end, last, last - 1)] {
-        let EndCut::Plane { normal } = cut else { continue };
-        let through = Point3::new(0.0, 0.0, loft.stations[end].z);
-        let moved: Vec<_> = levels[end]
-            .iter()
-            .zip(&levels[beside])
-            .map(|(p, q)| into_plane(*p, q - p, &through, &normal))
-            .collect();
-        levels[end] = moved;
+        let z = loft.stations[end].z;
+        let corners = levels[end].iter().zip(&levels[beside]);
+        levels[end] = match cut {
+            EndCut::Square => continue,
+            EndCut::Plane { normal } => {
+                let through = Point3::new(0.0, 0.0, z);
+                corners.map(|(p, q)| into_plane(*p, q - p, &through, &normal)).collect()
+            }
+            EndCut::Saddle(saddle) => {
+                corners.map(|(p, _)| Point3::new(p.x, p.y, z + saddle.rise(&p.xy()))).collect()
+            }
+        };
     }
 }
 

@@ -83,13 +83,11 @@ impl Tree<'_, '_, '_, '_> {
 
     fn placements(&mut self, group: &Group) -> Result<Vec<Id>, Fault> {
         let geometry = &mut self.products.geometry;
-        geometry.begin_product();
         group.parts.iter().map(|part| geometry.placement(&axes(&part.placement))).collect()
     }
 
     fn assembly(&mut self, name: &str, components: &[Component<'_>]) -> Result<Placed, Fault> {
-        let mut placements: Vec<Id> = components.iter().filter_map(|c| c.placement).collect();
-        placements.dedup();
+        let placements: Vec<Id> = components.iter().filter_map(|c| c.placement).collect();
         let assembly = self.products.assembly(name, &placements)?;
         components.iter().try_for_each(|component| self.place(component, assembly))?;
         Ok(assembly)

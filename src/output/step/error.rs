@@ -130,6 +130,13 @@ pub enum BodyError {
         degrees: f64,
     },
 
+    /// An end cannot lie along a round member.
+    #[error("an end cannot be a saddle: {why}")]
+    NoSaddle {
+        /// What is in the way.
+        why: &'static str,
+    },
+
     /// The end cuts meet inside the beam and leave no length on one side.
     #[error("the end cuts cross each other inside the beam")]
     CutsCross,

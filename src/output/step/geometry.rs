@@ -1,7 +1,7 @@
 //! Points, directions, curves and surfaces as STEP entities.
 //!
-//! Within one product equal points and placements are written once, within the
-//! file equal directions.
+//! Equal points, directions and placements are written once.  Coordinates have
+//! thirteen digits: the rest is rounding, and differs from machine to machine.
 
 use nalgebra::{Point3, UnitVector3, Vector3};
 use rustc_hash::FxHashMap;
@@ -13,9 +13,12 @@ use super::part21::{Fault, Flag, Id, List, Part21, Real};
 /// Below this a component of a direction is rounding, and written as 0.
 const NO_COMPONENT: f64 = 1e-15;
 
+/// Digits of a coordinate.
+const DIGITS: i32 = 13;
+
 type Key = [u64; 3];
 
-/// Writes geometry, product by product.
+/// Writes geometry, each point, direction and placement once.
 pub(super) struct Geometry<'w, 'a> {
     pub(super) part: &'w mut Part21<'a>,
     points: FxHashMap<Key, Id>,
@@ -35,24 +38,19 @@ impl<'w, 'a> Geometry<'w, 'a> {
         }
     }
 
-    /// Forgets the points of the product before, which are not to be shared.
-    pub(super) fn begin_product(&mut self) {
-        self.points.clear();
-        self.placements.clear();
-    }
-
     pub(super) fn point(&mut self, p: &Point3<f64>) -> Result<Id, Fault> {
-        let key = key(&p.coords);
+        let p = p.coords.map(shortened);
+        let key = key(&p);
         if let Some(id) = self.points.get(&key) {
             return Ok(*id);
         }
-        let id = self.part.entity(format_args!("CARTESIAN_POINT('',{})", reals(&p.coords)))?;
+        let id = self.part.entity(format_args!("CARTESIAN_POINT('',{})", reals(&p)))?;
         self.points.insert(key, id);
         Ok(id)
     }
 
     fn direction(&mut self, d: &UnitVector3<f64>) -> Result<Id, Fault> {
-        let d = d.map(|x| if x.abs() < NO_COMPONENT { 0.0 } else { x });
+        let d = d.map(|x| if x.abs() < NO_COMPONENT { 0.0 } else { shortened(x) });
         let key = key(&d);
         if let Some(id) = self.directions.get(&key) {
             return Ok(*id);
@@ -102,13 +100,11 @@ impl<'w, 'a> Geometry<'w, 'a> {
     }
 
     fn conic(&mut self, conic: &Conic) -> Result<Id, Fault> {
-        let (origin, z) = (conic.centre, conic.normal().into_inner());
+        let axes = self.placement(&conic.axes())?;
         if let Some(radius) = conic.radius() {
-            let axes = self.placement(&Axes::about(origin, z, conic.p))?;
             return self.part.entity(format_args!("CIRCLE('',{axes},{})", Real(radius)));
         }
         let (major, minor) = conic.half_axes();
-        let axes = self.placement(&Axes::about(origin, z, major))?;
         let (a, b) = (Real(major.norm()), Real(minor.norm()));
         self.part.entity(format_args!("ELLIPSE('',{axes},{a},{b})"))
     }
@@ -191,6 +187,17 @@ impl<'w, 'a> Geometry<'w, 'a> {
     fn control_points(&mut self, points: &[Vector4]) -> Result<Vec<Id>, Fault> {
         points.iter().map(|p| self.point(&(Point3::new(p.x, p.y, p.z) / p.w))).collect()
     }
+}
+
+/// The number to [`DIGITS`] digits.
+fn shortened(x: f64) -> f64 {
+    let decimals = f64::from(DIGITS - 1) - x.abs().log10().floor();
+    // Powers of ten up to here are exact, and the quotient the nearest to the decimal.
+    if !(0.0..=22.0).contains(&decimals) {
+        return x;
+    }
+    let scale = 10f64.powi(decimals as i32);
+    (x * scale).round() / scale
 }
 
 /// Bits of three numbers, with both zeros the same.

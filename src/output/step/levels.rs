@@ -262,7 +262,7 @@ impl Levels {
 }
 
 /// Slope of a cut: z rises by slope·(x, y) away from the axis.
-fn slope(cut: &EndCut, end: &'static str) -> Result<Vector2<f64>, BodyError> {
+pub(super) fn slope(cut: &EndCut, end: &'static str) -> Result<Vector2<f64>, BodyError> {
     let EndCut::Plane { normal } = cut else { return Ok(Vector2::zeros()) };
     let length = normal.norm();
     if !length.is_finite() || length == 0.0 {

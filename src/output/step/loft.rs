@@ -24,10 +24,12 @@
 
 use nalgebra::Vector3;
 
+use super::coped::Coped;
 use super::error::BodyError;
 use super::levels::Levels;
 use super::outline::Outline;
 use super::piece::Piece;
+use crate::saddle::Saddle;
 
 /// Largest angle between an end cut and a square one.
 ///
@@ -83,6 +85,10 @@ pub enum EndCut {
         /// Normal of the plane, of any length and either sign; at most 80° off the axis.
         normal: Vector3<f64>,
     },
+    /// Along the side of a round member, which it meets on the axis at the end station. The beam
+    /// must be a round bar or tube of constant section about its axis, its radius at most 0.9 of
+    /// that of the member, which lies at most 80° off a right angle to it.
+    Saddle(Saddle),
 }
 
 impl Loft {
@@ -115,7 +121,16 @@ impl Loft {
     /// # Errors
     /// If the loft is not a solid.
     pub fn volume(&self) -> Result<f64, BodyError> {
-        self.levels()?.volume()
+        match self.coped() {
+            Some(coped) => coped.map(|c| c.volume()),
+            None => self.levels()?.volume(),
+        }
+    }
+
+    /// The beam as one with saddles, if it has any.
+    pub(super) fn coped(&self) -> Option<Result<Coped, BodyError>> {
+        let has_saddle = [&self.start, &self.end].iter().any(|e| matches!(e, EndCut::Saddle(_)));
+        has_saddle.then(|| Coped::new(self))
     }
 
     pub(super) fn levels(&self) -> Result<Levels, BodyError> {

@@ -59,6 +59,7 @@ mod body;
 mod brep;
 mod catalogue;
 mod context;
+mod coped;
 mod crossing;
 mod document;
 mod error;
@@ -85,6 +86,8 @@ pub use facets::{Circle, Facet, Facets, Loop};
 pub use freeform::Freeform;
 pub use loft::{Between, EndCut, Loft, Station};
 pub use outline::{Outline, Path, Segment};
+
+pub use crate::saddle::Saddle;
 
 use super::part21::{self, Part21};
 use catalogue::Catalogue;

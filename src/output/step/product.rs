@@ -60,7 +60,6 @@ impl<'w, 'a> Products<'w, 'a> {
 
     /// Writes a product with a solid in it.
     pub(super) fn leaf(&mut self, product: &Product<'_>) -> Result<Placed, Fault> {
-        self.geometry.begin_product();
         let brep = Topology::new(&mut self.geometry).solid(&product.solid)?;
         let (origin, context) = (self.origin, self.context.geometry);
         let shape = self.part().entity(format_args!(
@@ -79,8 +78,10 @@ impl<'w, 'a> Products<'w, 'a> {
 
     /// Writes an assembly product; `placements` are where its components go.
     pub(super) fn assembly(&mut self, name: &str, placements: &[Id]) -> Result<Placed, Fault> {
-        let items: Vec<Id> =
-            std::iter::once(self.origin).chain(placements.iter().copied()).collect();
+        let mut items = vec![self.origin];
+        items.extend(placements);
+        let mut there = HashSet::new();
+        items.retain(|item| there.insert(*item));
         let (items, context) = (List(&items), self.context.geometry);
         let shape =
             self.part().entity(format_args!("SHAPE_REPRESENTATION('',{items},{context})"))?;
@@ -162,7 +163,7 @@ impl<'w, 'a> Products<'w, 'a> {
         let item = self.item(&name, &property.value)?;
         let item = self.once(item)?;
         let context = self.context.geometry;
-        let value = self.once(format!("REPRESENTATION({name},({item}),{context})"))?;
+        let value = self.once(format!("REPRESENTATION('',({item}),{context})"))?;
         let part = self.part();
         let own = part.entity(format_args!("PROPERTY_DEFINITION({name},'',{definition})"))?;
         part.entity(format_args!("GENERAL_PROPERTY_ASSOCIATION('','',{general},{own})"))?;

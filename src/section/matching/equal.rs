@@ -1,6 +1,7 @@
 //! Beams that are meant to be equal get equal profiles.
 
 use super::MatchTarget;
+use crate::cluster;
 
 /// Which beams are equal, and what stands for each group.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,28 +29,8 @@ pub struct Equalized {
 pub fn equalize(beams: &[(MatchTarget, f64)], tolerance: f64) -> Equalized {
     let rows: Vec<[f64; 5]> = beams.iter().map(|(target, length)| row(target, *length)).collect();
     let limit = tolerance.max(0.0).ln_1p();
-    let mut pairs = Vec::new();
-    for a in 0..rows.len() {
-        for b in a + 1..rows.len() {
-            let apart = difference(&rows[a], &rows[b]);
-            if apart <= limit {
-                pairs.push((apart, a, b));
-            }
-        }
-    }
-    pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then((p.1, p.2).cmp(&(q.1, q.2))));
-    let mut members: Vec<Vec<usize>> = (0..rows.len()).map(|i| vec![i]).collect();
-    let mut group: Vec<usize> = (0..rows.len()).collect();
-    for (_, a, b) in pairs {
-        let (g, h) = (group[a].min(group[b]), group[a].max(group[b]));
-        let agree = |&i: &usize, &j: &usize| difference(&rows[i], &rows[j]) <= limit;
-        if g != h && members[g].iter().all(|i| members[h].iter().all(|j| agree(i, j))) {
-            let joined = std::mem::take(&mut members[h]);
-            joined.iter().for_each(|&i| group[i] = g);
-            members[g].extend(joined);
-        }
-    }
-    summary(beams, &rows, members)
+    let distance = |a: usize, b: usize| Some(difference(&rows[a], &rows[b]));
+    summary(beams, &rows, &cluster::groups(rows.len(), distance, limit, limit))
 }
 
 /// Logarithms of the five measures, halved for the fourth powers.
@@ -62,15 +43,14 @@ fn difference(a: &[f64; 5], b: &[f64; 5]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
 }
 
-fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: Vec<Vec<usize>>) -> Equalized {
+fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: &[Vec<usize>]) -> Equalized {
     let mut all = Equalized {
         group_of: vec![0; beams.len()],
         targets: Vec::new(),
         lengths: Vec::new(),
         representatives: Vec::new(),
     };
-    for mut group in members.into_iter().filter(|group| !group.is_empty()) {
-        group.sort_unstable();
+    for group in members {
         let mean = |of: &dyn Fn(&(MatchTarget, f64)) -> f64| {
             group.iter().map(|&i| of(&beams[i])).sum::<f64>() / group.len() as f64
         };

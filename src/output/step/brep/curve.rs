@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::{Point2, Point3, UnitVector3, Vector2, Vector3};
 use truck_modeling::{BSplineCurve, KnotVec, NurbsCurve, Vector4};
 
-use super::{Conic, Curve};
+use super::{Axes, Conic, Curve};
 use crate::output::step::freeform::Freeform;
 use crate::output::step::levels::Level;
 use crate::output::step::piece::{Arc, Piece};
@@ -80,6 +80,12 @@ impl Conic {
         let (major, minor) = self.half_axes();
         let (a, b) = (major.norm(), minor.norm());
         (a - b <= 1e-12 * a).then_some(a)
+    }
+
+    /// Axes in its middle, z the normal, x along the longer half-axis; p of a circle.
+    pub(in crate::output::step) fn axes(&self) -> Axes {
+        let x = if self.radius().is_some() { self.p } else { self.half_axes().0 };
+        Axes::about(self.centre, self.normal().into_inner(), x)
     }
 
     /// The conic as a rational quadratic B-spline from θ = 0 to `sweep`.

@@ -18,7 +18,7 @@ use truck_modeling::{BSplineCurve, BSplineSurface, KnotVec, NurbsCurve, NurbsSur
 use super::curve::{lifted, lifted_nurbs};
 use super::{Axes, Conic, Curve, Edge, Face, Skin, Solid, Surface, Vertex, Wire, face, solid_of};
 use crate::output::step::error::BodyError;
-use crate::output::step::levels::Levels;
+use crate::output::step::levels::{Level, Levels};
 use crate::output::step::piece::{Arc, Piece, SAME};
 use crate::output::step::side::Side;
 use crate::output::step::spline::clamped_ordinates;
@@ -44,18 +44,23 @@ pub(super) fn solid(levels: &Levels) -> Result<Solid, BodyError> {
         bottom.push(Wire::from(rings[0].along.clone()).inverse());
         top.push(Wire::from(rings[rings.len() - 1].along.clone()));
     }
-    faces.push(cap(levels, 0, bottom)?);
-    faces.push(cap(levels, last, top)?);
+    faces.push(level_cap(&levels.planes[0], false, bottom)?);
+    faces.push(level_cap(&levels.planes[last], true, top)?);
     solid_of(vec![faces.into()])
 }
 
 /// The plane end of a loft; its surface faces up at both ends.
-fn cap(levels: &Levels, k: usize, wires: Vec<Wire>) -> Result<Face, BodyError> {
-    let level = &levels.planes[k];
-    let up = Vector3::new(-level.slope.x, -level.slope.y, 1.0);
-    let origin = Point3::new(0.0, 0.0, level.height);
-    let axes = Axes::about(origin, up, level.lift_vector(&Vector2::x()));
-    face(wires, Skin { surface: Surface::Plane(axes), seam: None }, k > 0)
+pub(super) fn level_cap(level: &Level, up: bool, wires: Vec<Wire>) -> Result<Face, BodyError> {
+    let only = wires.first().filter(|outer| outer.len() == 1).map(|outer| outer[0].curve());
+    // One placement for a closed conic, which runs counter-clockwise, and the plane it lies in.
+    let axes = if let Some(Curve::Conic(conic)) = only {
+        conic.axes()
+    } else {
+        let normal = Vector3::new(-level.slope.x, -level.slope.y, 1.0);
+        let origin = Point3::new(0.0, 0.0, level.height);
+        Axes::about(origin, normal, level.lift_vector(&Vector2::x()))
+    };
+    face(wires, Skin { surface: Surface::Plane(axes), seam: None }, up)
 }
 
 /// How the control points of a smooth loft follow from those of its stations:
@@ -261,7 +266,7 @@ fn spline(surface: BSplineSurface<Vector4>) -> Surface {
     Surface::Spline(Box::new(NurbsSurface::new(surface)))
 }
 
-fn cylinder(arc: &Arc, base: f64) -> Surface {
+pub(super) fn cylinder(arc: &Arc, base: f64) -> Surface {
     let origin = Point3::new(arc.centre.x, arc.centre.y, base);
     Surface::Cylinder { axes: upright_axes(origin, Vector3::z_axis(), arc), radius: arc.p.norm() }
 }

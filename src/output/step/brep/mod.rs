@@ -12,6 +12,7 @@
 //! closed edge has one vertex (`Edge::new_unchecked`), and a face that closes
 //! on itself, as a cylinder does, has a seam ([`Skin::seam`]).
 
+mod coped;
 mod curve;
 mod facets;
 mod loft;
@@ -112,6 +113,10 @@ impl Axes {
 pub(super) fn build(body: &Body) -> Result<(f64, Solid), BodyError> {
     match body {
         Body::Loft(loft) => {
+            if let Some(coped) = loft.coped() {
+                let coped = coped?;
+                return Ok((coped.volume(), coped::solid(&coped)?));
+            }
             let levels = loft.levels()?;
             Ok((levels.volume()?, loft::solid(&levels)?))
         }
