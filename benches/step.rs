@@ -67,7 +67,7 @@ fn kinds() -> Vec<Document> {
     ]
 }
 
-/// Round beams with mitres at both ends and eight properties each.
+/// Round beams with mitres at both ends and the properties the program gives a matched beam.
 fn furnished() -> Document {
     let mut document = beams("furnished", || (Outline::circle(5.0), vec![]));
     for (i, part) in document.groups[0].parts.iter_mut().enumerate() {
@@ -76,15 +76,16 @@ fn furnished() -> Document {
             *loft = loft.clone().cut(Vector3::new(tilt, 0.2, 1.0), Vector3::new(0.1, -tilt, 1.0));
         }
         part.properties = vec![
-            Property::text("profile", "round 10"),
+            Property::text("profile", "Round 10"),
             Property::new("length", Value::Length(100.0 + i as f64)),
             Property::new("area", Value::Area(78.5398)),
             Property::new("mass", Value::Mass(0.1 + i as f64 * 1e-3)),
-            Property::new("branch", Value::Count(i as i32)),
-            Property::new("area error", Value::Number(i as f64 * 1e-5)),
-            Property::new("inertia error", Value::Number(i as f64 * -1e-5)),
-            Property::new("twist", Value::Degrees(i as f64 * 0.1)),
+            Property::text("branch", i.to_string()),
         ];
+        for (name, spread) in [("error of A", 2.0), ("error of I1", 5.0), ("error of I2", 7.0)] {
+            let error = spread * (i as f64).sin();
+            part.properties.push(Property::text(name, format!("{error:+.1} %")));
+        }
     }
     document
 }
