@@ -92,6 +92,18 @@ fn an_output_given_by_its_ending_goes_beside_the_step_file() -> Outcome {
 }
 
 #[test]
+fn a_second_mesh_without_a_folder_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let bar = sample("single_bar.obj");
+    let words = ["reconstruct", &bar.to_string_lossy(), "b.obj", "-o", "a.step"];
+    let done = beamwright(folder.path(), &words)?;
+    assert_eq!(done.status.code(), Some(2));
+    assert!(String::from_utf8(done.stderr)?.contains("--out-dir"));
+    assert_eq!(std::fs::read_dir(folder.path())?.count(), 0);
+    Ok(())
+}
+
+#[test]
 fn one_file_for_many_meshes_is_refused_before_any_work() -> Outcome {
     let folder = tempfile::tempdir()?;
     for (option, file, ending) in [

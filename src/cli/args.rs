@@ -161,7 +161,7 @@ pub(crate) struct ReconstructArgs {
     pub(crate) result: ResultArgs,
 
     /// Further meshes, where --out-dir is given
-    #[arg(value_name = "IN", requires = "out_dir", help_heading = "Input")]
+    #[arg(value_name = "IN", help_heading = "Input")]
     pub(crate) more: Vec<PathBuf>,
 }
 

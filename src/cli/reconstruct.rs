@@ -28,6 +28,9 @@ pub(crate) fn run(
     args.shop.check()?;
     match (&args.output.out_dir, &args.output.output) {
         (Some(folder), _) => super::batch::run(args, folder, global, progress),
+        (None, _) if !args.more.is_empty() => Err(Failure::usage(
+            "for more than one mesh give a folder, --out-dir, instead of --output",
+        )),
         (None, step) => {
             let step = step.clone().unwrap_or_default();
             Job::new(args.of_one(&args.input.input, step))?.run(global, progress)
