@@ -7,10 +7,10 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Point3, Unit};
+use nalgebra::{Point3, Unit, Vector3};
 
 use super::curve::{SWOLLEN, base_curve, curve_point, is_bend, spaced};
-use super::draft::{Hub, Run};
+use super::draft::{Hub, HubKind, Run};
 use super::section_near::section_round;
 use super::trend::Trend;
 use crate::mesh::Surface;
@@ -84,6 +84,13 @@ pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) 
         strays(&shares, end, beside)
     });
     strays.into_iter().flatten().for_each(|i| shares[i] = 0.0);
+    for i in 1..last {
+        let Some(along) = Unit::try_new(points[i + 1] - points[i - 1], 0.0) else { continue };
+        let radius = trend.at(i as f64 / last as f64);
+        if hubs.iter().any(|hub| leaves_through(surface, hub, &points[i], along, radius)) {
+            shares[i] = 0.0;
+        }
+    }
     placed(&shares)
         .map(|i| {
             let position = kept_inside(surface, points[i], curve_point(&curve, i, last));
@@ -95,6 +102,26 @@ pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) 
 /// Within so many radii of a joint a point is placed only next to another one. Legs that part at a
 /// few degrees begin as one section hardly larger than their own, between them.
 const BESIDE: f64 = 2.0;
+
+/// Next to a slanted interface section the plane across the branch runs out of the design part beside
+/// it. Nearer than so many radii to its middle, what lies there is taken for the branch's own by
+/// eq. (2.2): a section seen within the box of the widest interface section reaches 1.6 radii on
+/// y_form. No point is needed there: the branch runs straight to its end.
+const BESIDE_SLANT: f64 = 2.0;
+
+/// Whether the plane across the branch at a place meets that of the interface section within reach
+/// of its middle.
+fn leaves_through(
+    surface: &Surface,
+    hub: &Hub,
+    place: &Point3<f64>,
+    along: Unit<Vector3<f64>>,
+    radius: f64,
+) -> bool {
+    let HubKind::Interface(section) = hub.kind else { return false };
+    let slant = along.cross(&surface.interfaces[section].normal).norm();
+    (place - hub.position).dot(&along).abs() < slant * BESIDE_SLANT * radius
+}
 
 /// Points beside the joint at one end, up to the last one without a placed neighbour on the far
 /// side.
