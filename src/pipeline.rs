@@ -24,7 +24,7 @@ use crate::skeleton::params::OutOfRange;
 use crate::skeleton::{self, Marched, Skeleton, SkeletonError, SkeletonParams};
 
 /// Everything that steers a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Settings {
     /// How the file is read.
     pub read: ReadOptions,
@@ -42,6 +42,21 @@ pub struct Settings {
     pub joints: JointKind,
     /// Files with the user's own profiles, searched besides the built-in ones.
     pub catalogue_files: Vec<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            read: ReadOptions::default(),
+            non_design_files: Vec::new(),
+            labels: LabelParams::default(),
+            skeleton: SkeletonParams::for_beams(),
+            frame: FrameParams::default(),
+            profiles: ProfileParams::default(),
+            joints: JointKind::default(),
+            catalogue_files: Vec::new(),
+        }
+    }
 }
 
 /// What a run produced.

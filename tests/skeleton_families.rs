@@ -2,8 +2,9 @@
 
 mod common;
 
+use beamwright::evaluate::{EvaluateOptions, evaluate};
 use beamwright::finding::FindingKind;
-use beamwright::skeleton::{Marched, PointKind, SkeletonError, SkeletonParams, march};
+use beamwright::skeleton::{Junctions, Marched, PointKind, SkeletonError, SkeletonParams, march};
 use common::TestMesh;
 use common::families::{cylinder, cylinder_between_pads, quarter_bend, together, torus};
 use common::frame;
@@ -11,6 +12,11 @@ use common::march_cubes::surface_of;
 
 fn marched(mesh: &TestMesh) -> Result<Marched, SkeletonError> {
     march(&mesh.surface(), &SkeletonParams::default(), &mut ())
+}
+
+fn marched_with(mesh: &TestMesh, junctions: Junctions) -> Marched {
+    let params = SkeletonParams { junctions, ..SkeletonParams::default() };
+    march(&mesh.surface(), &params, &mut ()).expect("a skeleton")
 }
 
 /// Parts with the components and cycles their skeletons must have.
@@ -54,8 +60,11 @@ fn with_noise(mesh: &TestMesh, size: f64) -> TestMesh {
     noisy
 }
 
-fn assert_sound(name: &str, mesh: &TestMesh, [components, cycles]: [usize; 2]) {
-    let marched = marched(mesh).unwrap_or_else(|e| panic!("{name}: {e}"));
+fn assert_sound(name: &str, mesh: &TestMesh, topology: [usize; 2]) {
+    assert_keeps(name, &marched(mesh).unwrap_or_else(|e| panic!("{name}: {e}")), topology);
+}
+
+fn assert_keeps(name: &str, marched: &Marched, [components, cycles]: [usize; 2]) {
     let skeleton = &marched.skeleton;
     let breaches: Vec<_> = marched.findings.iter().filter(|f| f.breach).collect();
     assert!(breaches.is_empty(), "{name}: {breaches:?}");
@@ -73,6 +82,37 @@ fn every_skeleton_lies_inside_and_has_the_tunnels_of_its_part() {
 fn noise_of_a_twentieth_of_an_edge_changes_no_topology() {
     for (name, mesh, topology) in parts().into_iter().filter(|p| p.0 != "prism of three sides") {
         assert_sound(name, &with_noise(&mesh, 0.05), topology);
+    }
+}
+
+#[test]
+fn centred_junctions_change_no_topology_and_leave_the_part_nowhere() {
+    for (name, mesh, topology) in parts() {
+        assert_keeps(name, &marched_with(&mesh, Junctions::Centred), topology);
+    }
+}
+
+/// Mean of eq. (2.2) at equal spacing.
+fn e_center(mesh: &TestMesh, marched: &Marched) -> f64 {
+    let figures = evaluate(&mesh.surface(), &marched.skeleton, &EvaluateOptions::default());
+    figures.expect("figures").resampled.e_center.expect("points")
+}
+
+#[test]
+fn junctions_in_the_middle_are_better_centred_than_those_on_axes() {
+    for (name, mesh, _) in parts().into_iter().filter(|p| ["tee", "table"].contains(&p.0)) {
+        let [axes, centred] = [Junctions::Axes, Junctions::Centred]
+            .map(|junctions| e_center(&mesh, &marched_with(&mesh, junctions)));
+        assert!(centred < 0.8 * axes, "{name}: {centred} and {axes}");
+    }
+}
+
+#[test]
+fn a_frame_of_straight_bars_has_its_junctions_on_axes_by_default() {
+    for (name, mesh, _) in parts().into_iter().filter(|p| ["tee", "cross", "table"].contains(&p.0))
+    {
+        let default = marched(&mesh).expect("a skeleton").skeleton;
+        assert_eq!(default, marched_with(&mesh, Junctions::Axes).skeleton, "{name}");
     }
 }
 

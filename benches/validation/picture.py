@@ -25,6 +25,8 @@ def draw(path: Path, mesh: Mesh, skeletons: dict[str, list[np.ndarray]]) -> None
     rows = (len(skeletons) + 1) // 2
     height = 5.5 * extent[b] / extent[a] + 0.4
     figure, axes = plt.subplots(rows, 2, figsize=(11, rows * min(height, 9)), squeeze=False)
+    for axis in axes.ravel()[len(skeletons) :]:
+        axis.axis("off")
     for axis, (name, lines) in zip(axes.ravel(), skeletons.items()):
         shadow(axis, mesh, a, b)
         points = np.concatenate(lines)

@@ -9,7 +9,7 @@ use beamwright::mesh::LabelParams;
 use beamwright::mesh::label::DEFAULT_NAMES;
 use beamwright::pipeline::Settings;
 use beamwright::section::{MatchMode, ProfileChoice};
-use beamwright::skeleton::{Orientation, SkeletonParams};
+use beamwright::skeleton::{Junctions, Orientation, SkeletonParams};
 use beamwright_formats::{ReadOptions, Unit};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -146,6 +146,7 @@ pub(crate) enum ProgressStyle {
 }
 
 #[derive(Args, Clone, Debug)]
+#[command(mut_arg("junctions", |arg| arg.default_value("axes")))]
 pub(crate) struct ReconstructArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
@@ -252,6 +253,10 @@ pub(crate) struct MarchArgs {
     #[arg(long, value_name = "FRAME", default_value = "local")]
     pub(crate) orientation: OrientationArg,
 
+    /// Where the local march places junctions
+    #[arg(long, value_name = "PLACE", default_value = "auto")]
+    pub(crate) junctions: JunctionsArg,
+
     /// Distance between skeletal points, in mean strut radii; smaller follows bends more closely
     #[arg(long, value_name = "RADII", default_value_t = SkeletonParams::default().step)]
     pub(crate) step: f64,
@@ -267,6 +272,16 @@ pub(crate) enum OrientationArg {
     Local,
     /// The box stays aligned with the global axes
     Global,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum JunctionsArg {
+    /// Where axes meet, in a frame of straight bars; in the middle elsewhere
+    Auto,
+    /// Where the straight axes of the branches meet
+    Axes,
+    /// In the middle of the material: the best-centred skeleton
+    Centred,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -363,12 +378,17 @@ impl InputArgs {
 
 impl From<&MarchArgs> for SkeletonParams {
     fn from(args: &MarchArgs) -> Self {
-        let MarchArgs { orientation, step, width_ratio } = *args;
+        let MarchArgs { orientation, junctions, step, width_ratio } = *args;
         let orientation = match orientation {
             OrientationArg::Local => Orientation::Local,
             OrientationArg::Global => Orientation::Global,
         };
-        Self { orientation, step, width_ratio }
+        let junctions = match junctions {
+            JunctionsArg::Auto => Junctions::Auto,
+            JunctionsArg::Axes => Junctions::Axes,
+            JunctionsArg::Centred => Junctions::Centred,
+        };
+        Self { orientation, junctions, step, width_ratio }
     }
 }
 
@@ -407,10 +427,17 @@ mod tests {
     fn flag_defaults_are_the_library_defaults() {
         let cli = Cli::parse_from(["beamwright", "reconstruct", "in.obj", "-o", "out.step"]);
         let Command::Reconstruct(args) = cli.command else { panic!("another subcommand") };
-        assert_eq!(SkeletonParams::from(&args.march), SkeletonParams::default());
+        assert_eq!(SkeletonParams::from(&args.march), SkeletonParams::for_beams());
         assert_eq!(FrameParams::from(&args.frame), FrameParams::default());
         assert_eq!(ProfileParams::from(&args.frame), ProfileParams::default());
         assert_eq!(args.input.settings().labels.names, LabelParams::default().names);
+    }
+
+    #[test]
+    fn a_skeleton_alone_is_as_well_centred_as_can_be() {
+        let cli = Cli::parse_from(["beamwright", "skeleton", "in.obj", "-o", "out.json"]);
+        let Command::Skeleton(args) = cli.command else { panic!("another subcommand") };
+        assert_eq!(SkeletonParams::from(&args.march), SkeletonParams::default());
     }
 
     #[test]

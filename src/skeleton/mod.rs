@@ -30,7 +30,7 @@ pub mod verify;
 
 pub use error::SkeletonError;
 pub use graph::{Branch, PointKind, SkeletalPoint, Skeleton};
-pub use params::{Orientation, SkeletonParams};
+pub use params::{Junctions, Orientation, SkeletonParams};
 
 use crate::finding::Finding;
 use crate::mesh::Surface;

@@ -10,11 +10,28 @@ pub enum Orientation {
     Global,
 }
 
+/// Where the local march places its junctions.
+///
+/// Where straight axes meet is not the middle of the lump of material round the junction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Junctions {
+    /// Where axes meet, in a part that is a frame of straight bars; in the middle elsewhere.
+    #[default]
+    Auto,
+    /// Where the straight axes of the branches meet (thesis §5.2.6).
+    Axes,
+    /// In the middle of the material: smallest by eq. (2.2), about a radius off the axes.
+    Centred,
+}
+
 /// Parameters of the march. All lengths are relative to the branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkeletonParams {
     /// In which frame the identifier box is carried along.  Default: local.
     pub orientation: Orientation,
+
+    /// Where junctions are placed; the global march has its own rule.  Default: auto.
+    pub junctions: Junctions,
 
     /// Distance between two skeletal points, in mean strut radii 2 V / A of the design part.
     ///
@@ -31,7 +48,20 @@ pub struct SkeletonParams {
 
 impl Default for SkeletonParams {
     fn default() -> Self {
-        Self { orientation: Orientation::Local, step: 1.0, width_ratio: 1.3 }
+        Self {
+            orientation: Orientation::Local,
+            junctions: Junctions::Auto,
+            step: 1.0,
+            width_ratio: 1.3,
+        }
+    }
+}
+
+impl SkeletonParams {
+    /// Defaults for a skeleton that becomes beams: straight bars want the junctions on their axes.
+    #[must_use]
+    pub fn for_beams() -> Self {
+        Self { junctions: Junctions::Axes, ..Self::default() }
     }
 }
 

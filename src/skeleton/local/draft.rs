@@ -48,11 +48,13 @@ pub(crate) struct Hub {
     pub(crate) position: Point3<f64>,
     /// A place the hub must keep.
     pub(crate) pinned: Option<Point3<f64>>,
+    /// A joint in the middle of the material, not where the axes of its runs meet.
+    pub(crate) is_centred: bool,
 }
 
 impl Hub {
     fn new(kind: HubKind, position: Point3<f64>) -> Self {
-        Self { kind, position, pinned: None }
+        Self { kind, position, pinned: None, is_centred: false }
     }
 }
 

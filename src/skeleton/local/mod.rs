@@ -6,7 +6,7 @@
 //! | 2 | from there a front marches both ways to the ends of the rod and claims the surface | `march`, `band`, `claim` |
 //! | 3 | the surface is cut along one front of each rod; pieces with a handle are searched again | `patch`, `search` |
 //! | 4 | pieces become hubs, rods become runs; false joints go | `draft`, `simplify` |
-//! | 5 | joints are placed where the straight axes of their runs meet (§5.2.6) | `axis`, `junction` |
+//! | 5 | joints are placed where the straight axes of their runs meet (§5.2.6), or in the middle of the material | `axis`, `junction`, `centre` |
 //! | 6 | points are spread along the runs and moved to the centroids of their sections (§5.2.5) | `sample` |
 //!
 //! Step 3 is what makes the topology sound: every piece, closed over its cuts, is a sphere, so the
@@ -22,6 +22,7 @@
 mod assemble;
 mod axis;
 mod band;
+mod centre;
 mod claim;
 mod curve;
 mod draft;
@@ -64,7 +65,11 @@ pub fn skeleton(
     if draft.runs.len() == 1 && is_block(&draft) {
         return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }
-    let skeleton = assemble::assemble(surface, params.step * mean_radius, &draft);
+    let step = params.step * mean_radius;
+    if centre::is_centred(&draft, params.junctions) {
+        centre::centre_joints(&mut draft, surface, step);
+    }
+    let skeleton = assemble::assemble(surface, step, &draft);
     Ok(Marched { skeleton, findings: findings(surface, &draft) })
 }
 

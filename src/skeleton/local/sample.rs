@@ -43,16 +43,35 @@ struct Growth {
 /// monster_lite lie half as well in the middle.
 const AT_JOINT: Growth = Growth { follow: SWOLLEN, leave: 2.0 };
 
+/// Where joints lie in the middle of the material, the whole section is taken for the branch's own
+/// until it is another branch's as well.
+const AT_CENTRED_JOINT: Growth = Growth { follow: 2.0, leave: 2.0 };
+
 /// Next to an interface section or a free end the whole section is the branch's own, flared or not.
 const AT_END: Growth = Growth { follow: 2.5, leave: 3.5 };
 
 /// A point is placed where the section is the branch's own by at least this share.
 const OWN: f64 = 0.5;
 
-/// Points between two hubs, both left out, about `step` apart.
-pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) -> Vec<Sample> {
-    let Some(trend) = Trend::of(run) else { return Vec::new() };
-    let curve = base_curve(surface, run, &trend, hubs);
+/// The points of a run on the centroids of their sections, its hubs included.
+pub(crate) struct Moved {
+    pub(crate) points: Vec<Point3<f64>>,
+    radii: Vec<f64>,
+    /// How far each section is the branch's own, 0..1.
+    shares: Vec<f64>,
+    /// The way before any point was moved.
+    curve: Vec<Point3<f64>>,
+}
+
+/// Points about `step` apart between two hubs, moved to the centroids of their sections.
+pub(crate) fn moved(
+    surface: &Surface,
+    run: &Run,
+    trend: &Trend,
+    hubs: [&Hub; 2],
+    step: f64,
+) -> Moved {
+    let curve = base_curve(surface, run, trend, hubs);
     let least = if run.hubs[0] == run.hubs[1] { 3 } else { 2 };
     let mut points = spaced(&curve, step, least);
     let last = points.len() - 1;
@@ -64,8 +83,7 @@ pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) 
             let Some(normal) = Unit::try_new(old[i + 1] - old[i - 1], 0.0) else { continue };
             let part = i as f64 / last as f64;
             let wanted = trend.at(part);
-            let growth =
-                if is_bend(hubs[usize::from(part > 0.5)].kind) { AT_JOINT } else { AT_END };
+            let growth = Growth::beside(hubs[usize::from(part > 0.5)]);
             let own = section_round(surface, run, &old[i], normal)
                 .filter(|s| (s.centroid - old[i]).norm() <= s.radius());
             shares[i] = own.map_or(0.0, |s| growth.share(s.area / (PI * wanted * wanted)));
@@ -76,6 +94,14 @@ pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) 
             }
         }
     }
+    Moved { points, radii, shares, curve }
+}
+
+/// Points between two hubs, both left out, about `step` apart.
+pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) -> Vec<Sample> {
+    let Some(trend) = Trend::of(run) else { return Vec::new() };
+    let Moved { points, radii, mut shares, curve } = moved(surface, run, &trend, hubs, step);
+    let last = points.len() - 1;
     let strays = [0, 1].map(|end| {
         let beside = |i: usize| {
             let reach = BESIDE * trend.at(i as f64 / last as f64);
@@ -149,8 +175,20 @@ fn spaced_again(points: &[Point3<f64>]) -> Vec<Point3<f64>> {
 }
 
 impl Growth {
+    /// What holds next to a hub.
+    fn beside(hub: &Hub) -> Self {
+        match hub.kind {
+            HubKind::Joint if hub.is_centred => AT_CENTRED_JOINT,
+            HubKind::Joint | HubKind::Knee => AT_JOINT,
+            HubKind::Interface(_) | HubKind::Tip => AT_END,
+        }
+    }
+
     /// How far towards the centroid a point goes whose section has `growth` times the trend's area.
     fn share(self, growth: f64) -> f64 {
+        if growth <= self.follow {
+            return 1.0;
+        }
         ((self.leave - growth) / (self.leave - self.follow)).clamp(0.0, 1.0)
     }
 }
