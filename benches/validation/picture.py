@@ -13,6 +13,10 @@ import numpy as np
 from cases import Mesh
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+#: How far round a junction is drawn, mm.
+REACH = 20.0
 
 #: A direction that no face of the samples lies along.
 RAY = np.array([0.36787944, 0.57721566, 0.7291532])
@@ -39,6 +43,33 @@ def draw(path: Path, mesh: Mesh, skeletons: dict[str, list[np.ndarray]]) -> None
         axis.set(title=name, aspect="equal")
         axis.axis("off")
     figure.tight_layout()
+    save(figure, path)
+
+
+def draw_junction(path: Path, mesh: Mesh, skeletons: dict[str, list[np.ndarray]]) -> None:
+    """The only junction of a flat part, near by, with the planes across the points beside it."""
+    figure, axes = plt.subplots(1, len(skeletons), figsize=(11, 6))
+    for axis, (name, lines) in zip(axes, skeletons.items()):
+        shadow(axis, mesh, 0, 1)
+        (centre,) = junctions(lines)
+        for line in lines:
+            axis.plot(line[:, 0], line[:, 1], "-", color="#c0392b", lw=1.5, marker=".", ms=8)
+            way = line if np.array_equal(line[0], centre) else line[::-1]
+            along = (way[2] - way[0])[:2]
+            across = np.array([-along[1], along[0]]) / np.linalg.norm(along)
+            ends = way[1][:2] + np.outer([-REACH, REACH], across)
+            axis.plot(ends[:, 0], ends[:, 1], "--", color="#1f4e79", lw=1)
+        axis.plot(centre[0], centre[1], "s", color="#1f4e79", ms=7)
+        axis.set(title=name, aspect="equal")
+        axis.set_xlim(centre[0] - REACH, centre[0] + REACH)
+        axis.set_ylim(centre[1] - REACH, centre[1] + REACH)
+        axis.axis("off")
+    figure.tight_layout()
+    save(figure, path)
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Writes a figure without what would differ from run to run."""
     figure.savefig(path, dpi=72, metadata={"Software": None}, pil_kwargs={"optimize": True})
     plt.close(figure)
 

@@ -204,6 +204,9 @@ def main() -> None:
         png = f"pictures/validation_{sample}.png"
         mesh = cases.read_obj(ROOT / "samples" / f"{sample}.obj")
         picture.draw(ROOT / "docs" / png, mesh, {m: cases.read_polylines(made[m]) for m in METHODS})
+        if sample == "y_form":
+            near = {m: cases.read_polylines(made[m]) for m in list(OURS)[:2]}
+            picture.draw_junction(ROOT / "docs/pictures/junctions.png", mesh, near)
         text.append(f"\n![{sample}: skeletons by all methods]({png})\n\n")
         print(sample, flush=True)
     text.append(WHERE_GLOBAL_FAILS)

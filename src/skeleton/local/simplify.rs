@@ -148,6 +148,7 @@ fn merge_into_interfaces(draft: &mut Draft, surface: &Surface) -> bool {
             // The struts run in one section for a while: the joint stays where they part.
             if draft.hubs[joint].pinned.is_none() {
                 draft.hubs[joint].pinned = Some(parting);
+                draft.hubs[joint].is_centred = true;
                 return true;
             }
             continue;
