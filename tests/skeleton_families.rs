@@ -4,7 +4,9 @@ mod common;
 
 use beamwright::evaluate::{EvaluateOptions, evaluate};
 use beamwright::finding::FindingKind;
-use beamwright::skeleton::{Junctions, Marched, PointKind, SkeletonError, SkeletonParams, march};
+use beamwright::skeleton::{
+    Junctions, Marched, Orientation, PointKind, SkeletonError, SkeletonParams, march,
+};
 use common::TestMesh;
 use common::families::{cylinder, cylinder_between_pads, quarter_bend, together, torus};
 use common::frame;
@@ -114,6 +116,15 @@ fn a_frame_of_straight_bars_has_its_junctions_on_axes_by_default() {
         let default = marched(&mesh).expect("a skeleton").skeleton;
         assert_eq!(default, marched_with(&mesh, Junctions::Axes).skeleton, "{name}");
     }
+}
+
+/// The slab across the march holds the whole leg, down to its interface section.
+#[test]
+fn the_global_march_sees_a_leg_that_leaves_across_its_way() {
+    let params = SkeletonParams { orientation: Orientation::Global, ..SkeletonParams::default() };
+    let surface = frame::tee().mesh(1.0).surface();
+    let skeleton = march(&surface, &params, &mut ()).expect("a skeleton").skeleton;
+    assert_eq!((skeleton.branches.len(), skeleton.count(PointKind::Junction)), (3, 1));
 }
 
 /// Legs that part at a small angle run in one section for many radii behind their joint.

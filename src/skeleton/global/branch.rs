@@ -66,6 +66,9 @@ struct Station {
 
 impl Marcher<'_> {
     /// Marches from a start to the end of the branch; the skeletal points on the way.
+    ///
+    /// A box that widens is a junction even where it holds nodes of an interface section: a stem across
+    /// the march lies in it whole, down to its end.
     pub(crate) fn march(&mut self, start: Start, known: &Sketch) -> (Vec<SkeletalPoint>, End) {
         let Start { origin, mut direction, mut bounds, nodes, mut first, step } = start;
         let mut last: FxHashSet<u32> = nodes.into_iter().collect();
@@ -83,11 +86,11 @@ impl Marcher<'_> {
             if is_first && !from_interface && known.was_generated(&next.piece.barycentre, step) {
                 return (points, End::Regenerated);
             }
-            if let Some(i) = self.interface_in(&next.piece, origin) {
-                return (points, End::Interface(i));
-            }
             if let Some(end) = self.junction_in(&next, &bounds, left, is_first, known) {
                 return (points, end);
+            }
+            if let Some(i) = self.interface_in(&next.piece, origin) {
+                return (points, End::Interface(i));
             }
             points.push(skeletal_point(&next));
             bounds = next.bounds;
