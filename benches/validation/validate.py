@@ -180,7 +180,8 @@ What §5.2.1 of the thesis says shows in the rows above. A box aligned with the 
 the farther a strut leans from them: its barycentre leaves the middle, and it widens past the ratio
 where no junction is (Monster lite, the legs of the quadpod). At a thick junction from which thin
 struts leave, boxes of the junction's width overlap those of its neighbours, and one junction is
-taken for another (four fixings). The program says so in its findings, and ends in exit code 3 with `--strict`.
+taken for another (four fixings). The program says so in its findings, and ends in exit code 3 with
+`--strict`.
 """
 
 
