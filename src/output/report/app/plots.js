@@ -55,6 +55,8 @@ function plotErrors() {
   const errors = scene.beams.map((b) => (b.error === null ? null : 100 * b.error));
   const options = bars("beam", "error, %", "#cc79a7", [0.4, errors.length + 0.6]);
   options.series[0].value = (u, v) => scene.beams[v - 1]?.mark ?? "–";
+  // There is no beam two and a half.
+  options.axes[0].incrs = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
   plot("plot-error", options, [errors.map((_, i) => i + 1), errors]);
 }
 
