@@ -13,6 +13,7 @@ use beamwright::section::matching::MatchTarget;
 use beamwright::section::outline::Outline;
 use beamwright::section::{Catalogue, MatchMode, ProfileChoice, match_profile};
 use beamwright::skeleton::{self, SkeletonParams};
+use common::frame::TrueFrame;
 use nalgebra::{Point3, Vector3};
 
 fn data(name: &str) -> PathBuf {
@@ -102,6 +103,27 @@ fn a_portal_of_rectangle_round_and_ellipse_is_measured_and_told_apart() {
             let turn = strong.dot(&Vector3::from(strut.axis_1)).abs().min(1.0).acos();
             assert!(turn.to_degrees() < 2.0, "{}: {turn} rad", strut.family);
         }
+    }
+}
+
+#[test]
+fn nodes_of_a_chord_with_slim_braces_lie_where_the_axes_meet() {
+    let at = |panel: usize, z: f64| [45.0 * panel as f64, 0.0, z];
+    let panels = [0.0, 45.0].into_iter().flat_map(|z| (0..4).map(move |panel| at(panel, z)));
+    let nodes = panels.chain([[-40.0, 0.0, 0.0], [175.0, 0.0, 0.0]]).collect();
+    let chords = [[8, 0], [0, 1], [1, 2], [2, 3], [3, 9], [4, 5], [5, 6], [6, 7]];
+    let chords = chords.map(|ends| (ends, [5.0; 2]));
+    let uprights = (0..4).map(|k| ([k, k + 4], [3.2; 2]));
+    let braces = [[4, 1], [1, 6], [6, 3]].map(|ends| (ends, [3.6; 2]));
+    let struts = chords.into_iter().chain(uprights).chain(braces).collect();
+    let truth = TrueFrame { nodes, struts, pads: vec![8, 9], pad: 8.0 };
+    let surface = truth.mesh(1.25).surface();
+    let march = skeleton::march(&surface, &SkeletonParams::default(), &mut ()).expect("a skeleton");
+    let all = frame::sections(&surface, &march.skeleton);
+    let found = normalize(&march.skeleton, &all, &surface, &FrameParams::default()).frame;
+    for node in truth.nodes[..8].iter().copied().map(Point3::from) {
+        let off = found.nodes.iter().map(|n| (n.position - node).norm()).fold(f64::MAX, f64::min);
+        assert!(off < 0.2 * 3.2, "{node}: {off:.2} mm");
     }
 }
 

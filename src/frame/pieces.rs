@@ -30,8 +30,14 @@ pub(super) struct Piece {
 /// junction a branch turns into it, which is no bend of the beam.
 const SHORTEST_PIECE: f64 = 3.0;
 
-/// Radii round a junction within which sections may hold a part of other branches.
+/// Radii round a junction within which sections may hold a part of other branches: radii of the piece.
 const JUNCTION_REACH: f64 = 3.0;
+
+/// Part of the mean area from which on a section holds more of other branches than is a swelling of its
+/// own, as that of a slim brace next to its node on the chord of a truss, which has three times its
+/// area: it may lie as far off as the thickest branch reaches. Ties that widen into a junction gain a
+/// fifth.
+const SWALLOWED: f64 = 1.5;
 
 /// Pieces and nodes in the making.
 pub(super) struct Making<'a> {
@@ -184,11 +190,21 @@ impl<'a> Making<'a> {
     /// other branches; elsewhere it is only thick.
     pub(super) fn own(&self, piece: &Piece, station: &BeamStation) -> f64 {
         let Some(section) = &self.sections[station.point as usize] else { return 0.0 };
-        let reach = JUNCTION_REACH * self.radius(piece);
-        let near_junction = piece.ends.iter().map(|&n| &self.nodes[n]).any(|node| {
-            node.kind == NodeKind::Junction && (node.position - section.centroid).norm() < reach
+        let own = self.radius(piece);
+        let is_swallowed = section.radius() > SWALLOWED.sqrt() * own;
+        let near_junction = piece.ends.iter().any(|&n| {
+            let node = &self.nodes[n];
+            let thickest = if is_swallowed { self.thickest_at(n) } else { 0.0 };
+            node.kind == NodeKind::Junction
+                && (node.position - section.centroid).norm() < JUNCTION_REACH * own.max(thickest)
         });
         if near_junction { station.weight } else { 1.0 }
+    }
+
+    /// Largest mean radius of the branches at a node, mm.
+    fn thickest_at(&self, node: usize) -> f64 {
+        let there = self.pieces.iter().filter(|p| p.ends.contains(&node));
+        there.map(|p| self.branch_radius(p)).fold(0.0, f64::max)
     }
 
     /// Makes one node of two that a piece shorter than a section radius joins; whether any was.
