@@ -49,37 +49,41 @@ pub struct Surface {
     pub listed: Vec<u32>,
     /// What was found and mended.
     pub report: MeshReport,
+    design: DesignPart,
+}
+
+/// How large the design part is.
+#[derive(Clone, Copy, Debug)]
+struct DesignPart {
+    volume: f64,
+    area: f64,
+}
+
+impl DesignPart {
+    fn new(mesh: &HalfEdgeMesh, labels: &Labels, interfaces: &[InterfaceSection]) -> Self {
+        let origin = mesh.positions().first().copied().unwrap_or_else(Point3::origin);
+        let (mut volume, mut area) = (0.0, 0.0);
+        for f in mesh.faces().filter(|f| labels.is_design(*f)) {
+            let [a, b, c] = mesh.corners(f).map(|p| p - origin);
+            volume += a.dot(&b.cross(&c)) / 6.0;
+            area += mesh.face_area(f);
+        }
+        // The cap of a section looks out of the design part, against the section's normal.
+        let caps: f64 =
+            interfaces.iter().map(|i| i.normal.dot(&(i.centroid - origin)) * i.area / 3.0).sum();
+        Self { volume: volume - caps, area }
+    }
 }
 
 impl Surface {
     /// Volume of the design part closed over its interface sections, mm³.
     pub fn design_volume(&self) -> f64 {
-        let origin = self.mesh.positions().first().copied().unwrap_or_else(Point3::origin);
-        let design: f64 = self
-            .mesh
-            .faces()
-            .filter(|f| self.labels.is_design(*f))
-            .map(|f| {
-                let [a, b, c] = self.mesh.corners(f).map(|p| p - origin);
-                a.dot(&b.cross(&c)) / 6.0
-            })
-            .sum();
-        // The cap of a section looks out of the design part, against the section's normal.
-        let caps: f64 = self
-            .interfaces
-            .iter()
-            .map(|i| i.normal.dot(&(i.centroid - origin)) * i.area / 3.0)
-            .sum();
-        design - caps
+        self.design.volume
     }
 
     /// Area of the design faces, mm².
     pub fn design_area(&self) -> f64 {
-        self.mesh
-            .faces()
-            .filter(|f| self.labels.is_design(*f))
-            .map(|f| self.mesh.face_area(f))
-            .sum()
+        self.design.area
     }
 
     /// Mean strut radius 2 V / A of the design part, mm.
@@ -328,7 +332,8 @@ fn finish(
     report.volume = mesh.volume();
     report.area = mesh.faces().map(|f| mesh.face_area(f)).sum();
     report.extent = extent(mesh.positions());
-    Surface { mesh, labels, interfaces, tree, listed, report }
+    let design = DesignPart::new(&mesh, &labels, &interfaces);
+    Surface { mesh, labels, interfaces, tree, listed, report, design }
 }
 
 /// Tunnels of a closed surface: χ = V − E + F = 2 (bodies − genus).

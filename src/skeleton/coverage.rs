@@ -4,7 +4,7 @@
 use nalgebra::Point3;
 
 use super::graph::Skeleton;
-use super::places::places;
+use super::places::{Place, places};
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
 use crate::segment::distance;
@@ -26,21 +26,23 @@ const PLACES: f64 = 1000.0;
 /// A finding when more than a trifle of the design surface lies far from the skeleton, at the
 /// place that lies farthest.
 pub(super) fn uncovered(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
-    let is_design = |f| surface.labels.is_design(f);
-    let places = places(&surface.mesh, is_design, surface.design_area() / PLACES);
+    let places = places(surface, |_| true, surface.design_area() / PLACES);
     let reach = REACH * surface.mean_radius();
-    let branches: Vec<Segment> = skeleton.segments().map(|s| Segment::of(skeleton, s)).collect();
+    let branches: Vec<Segment> =
+        skeleton.segments().map(|s| Segment::of(skeleton, s, reach)).collect();
     let mut far = Vec::new();
-    for place in &places {
-        let beyond = branches
-            .iter()
-            .map(|s| {
-                distance(&place.point, &s.ends[0], &s.ends[1])
-                    - reach.max(REACH_OF_A_THICK_BRANCH * s.radius)
-            })
-            .fold(f64::INFINITY, f64::min);
-        if beyond > 0.0 {
-            far.push((beyond, place.point));
+    // The next place lies near the last one, mostly, and near the same branch.
+    let mut near = 0;
+    for Place { point, .. } in &places {
+        if branches.get(near).is_some_and(|s| s.beyond(point) <= 0.0) {
+            continue;
+        }
+        match branches.iter().position(|s| s.beyond(point) <= 0.0) {
+            Some(other) => near = other,
+            None => {
+                let beyond = branches.iter().map(|s| s.beyond(point)).fold(f64::INFINITY, f64::min);
+                far.push((beyond, *point));
+            }
         }
     }
     let part = far.len() as f64 / places.len().max(1) as f64;
@@ -58,15 +60,21 @@ pub(super) fn uncovered(surface: &Surface, skeleton: &Skeleton) -> Option<Findin
     })
 }
 
-/// A straight piece of a branch.
+/// A straight piece of a branch and how far it tells the surface, mm.
 struct Segment {
     ends: [Point3<f64>; 2],
-    radius: f64,
+    reach: f64,
 }
 
 impl Segment {
-    fn of(skeleton: &Skeleton, ends: [u32; 2]) -> Self {
-        let radius = ends.map(|e| skeleton.points[e as usize].radius);
-        Self { ends: ends.map(|e| skeleton.position(e)), radius: radius[0].max(radius[1]) }
+    fn of(skeleton: &Skeleton, ends: [u32; 2], reach: f64) -> Self {
+        let [a, b] = ends.map(|e| skeleton.points[e as usize].radius);
+        let reach = reach.max(REACH_OF_A_THICK_BRANCH * a.max(b));
+        Self { ends: ends.map(|e| skeleton.position(e)), reach }
+    }
+
+    /// How far beyond its reach a place lies, mm.
+    fn beyond(&self, place: &Point3<f64>) -> f64 {
+        distance(place, &self.ends[0], &self.ends[1]) - self.reach
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use crate::mesh::HalfEdgeMesh;
+use crate::mesh::Surface;
 use crate::mesh::id::FaceId;
 
 /// A place on the surface.
@@ -18,19 +18,19 @@ const MOST_PLACES: f64 = 65_536.0;
 
 /// Places spread over the design faces, one for about `area_each` mm², [`MOST_PLACES`] at most.
 ///
-/// Small triangles share a place; large ones are cut in halves until each part has one.
+/// Small triangles share a place; large ones are cut in halves until each part has one. Only faces
+/// that are wanted get places.
 pub(crate) fn places(
-    mesh: &HalfEdgeMesh,
-    is_design: impl Fn(FaceId) -> bool,
+    surface: &Surface,
+    is_wanted: impl Fn(FaceId) -> bool,
     area_each: f64,
 ) -> Vec<Place> {
-    let design = || mesh.faces().filter(|f| is_design(*f));
-    let total: f64 = design().map(|f| 0.5 * mesh.doubled_area_vector(f).norm()).sum();
-    let area_each = area_each.max(total / MOST_PLACES);
+    let area_each = area_each.max(surface.design_area() / MOST_PLACES);
     let mut places = Vec::new();
     let mut due = 0.5;
-    for face in design() {
-        spread(face, mesh.corners(face), area_each, &mut due, &mut places);
+    let is_design = |f: &FaceId| surface.labels.is_design(*f);
+    for face in surface.mesh.faces().filter(is_design).filter(|f| is_wanted(*f)) {
+        spread(face, surface.mesh.corners(face), area_each, &mut due, &mut places);
     }
     places
 }

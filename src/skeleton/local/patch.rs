@@ -58,7 +58,8 @@ pub(crate) fn patches(
             }
         }
     }
-    let mut tally = Tally { of_root: FxHashMap::default(), all: Vec::new(), euler: Vec::new() };
+    let mut tally =
+        Tally { of_root: vec![NONE; cutting.regions as usize], all: Vec::new(), euler: Vec::new() };
     count_cells(mesh, &is_design, &cutting, &mut joined, &mut tally);
     for (c, contour) in cuts.iter().enumerate() {
         let (above, below) = cutting.sides_of_cut(mesh, contour, c);
@@ -79,7 +80,7 @@ pub(crate) fn patches(
     let of_face = mesh
         .faces()
         .map(|f| {
-            let whole = is_design(f) && !cutting.faces.contains_key(&f.0);
+            let whole = is_design(f) && cutting.cut_face(f).is_none();
             whole.then(|| tally.piece(&mut joined, f.0) as u32)
         })
         .collect();
@@ -95,7 +96,7 @@ fn count_cells(
     tally: &mut Tally,
 ) {
     let mut on_border = vec![false; mesh.positions().len()];
-    let mut inner_at: Vec<u32> = vec![u32::MAX; mesh.positions().len()];
+    let mut inner_at: Vec<u32> = vec![NONE; mesh.positions().len()];
     for h in mesh.faces().filter(|f| is_design(*f)).flat_map(|f| f.half_edges()) {
         inner_at[mesh.origin(h).index()] = h.0;
         let t = mesh.twin(h);
@@ -109,33 +110,37 @@ fn count_cells(
         }
     }
     for (v, &h) in inner_at.iter().enumerate() {
-        if h != u32::MAX && !on_border[v] {
+        if h != NONE && !on_border[v] {
             tally.add(joined, cutting.region(mesh, HalfEdgeId(h), 0), 1);
         }
     }
     for f in mesh.faces().filter(|f| is_design(*f)) {
-        match cutting.faces.get(&f.0) {
+        match cutting.cut_face(f) {
             None => tally.add(joined, f.0, 1),
             Some(cut) => cut.own_regions().for_each(|r| tally.add(joined, r, 1)),
         }
     }
 }
 
+/// No number.
+const NONE: u32 = u32::MAX;
+
 /// Pieces by the root of their regions.
 struct Tally {
-    of_root: FxHashMap<u32, usize>,
+    of_root: Vec<u32>,
     all: Vec<Patch>,
     euler: Vec<i64>,
 }
 
 impl Tally {
     fn piece(&mut self, joined: &mut Joined, region: u32) -> usize {
-        let root = joined.root(region);
-        *self.of_root.entry(root).or_insert_with(|| {
+        let piece = &mut self.of_root[joined.root(region) as usize];
+        if *piece == NONE {
+            *piece = self.all.len() as u32;
             self.all.push(Patch::default());
             self.euler.push(0);
-            self.all.len() - 1
-        })
+        }
+        *piece as usize
     }
 
     fn add(&mut self, joined: &mut Joined, region: u32, count: i64) {
@@ -179,8 +184,9 @@ struct CrossingPoint {
 struct Cutting {
     /// Crossings by the lower half-edge of each crossed edge, in the order along it.
     sides: FxHashMap<u32, Vec<CrossingPoint>>,
-    /// Regions of crossed triangles by face.
-    faces: FxHashMap<u32, CutFace>,
+    /// Place in `faces` of each triangle that is crossed.
+    of_face: Vec<u32>,
+    faces: Vec<CutFace>,
     /// Number of regions; a triangle that is not cut is the region of its own number.
     regions: u32,
 }
@@ -204,7 +210,8 @@ impl Cutting {
     fn new(mesh: &HalfEdgeMesh, cuts: &[&Contour]) -> Self {
         let mut cutting = Self {
             sides: FxHashMap::default(),
-            faces: FxHashMap::default(),
+            of_face: vec![NONE; mesh.face_count()],
+            faces: Vec::new(),
             regions: mesh.face_count() as u32,
         };
         let mut chords: FxHashMap<u32, Vec<(u32, u32)>> = FxHashMap::default();
@@ -227,12 +234,12 @@ impl Cutting {
             points.sort_by(|a, b| a.along.total_cmp(&b.along));
         }
         for face in order {
-            cutting.cut_face(mesh, cuts, FaceId(face), &chords[&face]);
+            cutting.add_face(mesh, cuts, FaceId(face), &chords[&face]);
         }
         cutting
     }
 
-    fn cut_face(
+    fn add_face(
         &mut self,
         mesh: &HalfEdgeMesh,
         cuts: &[&Contour],
@@ -284,7 +291,8 @@ impl Cutting {
                 name
             })
             .collect();
-        self.faces.insert(face.0, CutFace { first_part, region_of_part });
+        self.of_face[face.index()] = self.faces.len() as u32;
+        self.faces.push(CutFace { first_part, region_of_part });
     }
 
     /// Crossings of a side in its own direction.
@@ -297,14 +305,22 @@ impl Cutting {
         points
     }
 
+    /// How a triangle is cut, if it is.
+    fn cut_face(&self, face: FaceId) -> Option<&CutFace> {
+        self.faces.get(self.of_face[face.index()] as usize)
+    }
+
     /// Number of parts a side is cut into.
     fn parts(&self, mesh: &HalfEdgeMesh, h: HalfEdgeId) -> usize {
+        if self.of_face[h.face().index()] == NONE {
+            return 1;
+        }
         1 + self.sides.get(&h.min(mesh.twin(h)).0).map_or(0, Vec::len)
     }
 
     /// The region along part `part` of side `h`, in the triangle of `h`.
     fn region(&self, _mesh: &HalfEdgeMesh, h: HalfEdgeId, part: usize) -> u32 {
-        match self.faces.get(&h.face().0) {
+        match self.cut_face(h.face()) {
             None => h.face().0,
             Some(cut) => cut.region_of_part[cut.first_part[h.index() % 3] + part],
         }

@@ -92,7 +92,6 @@ pub(crate) fn find_tubes(
     let mut cut: Option<Patches> = None;
     for (round, look) in LOOKS.iter().enumerate() {
         let area_each = (look.spacing * mean_radius).powi(2);
-        let is_design = |f: FaceId| surface.labels.is_design(f);
         let places = if let Some(is_wanted) = look.pieces {
             let cut = cut.get_or_insert_with(|| cut_open(surface, &tubes));
             let seen = Seen { surface, tubes: &tubes };
@@ -102,9 +101,9 @@ pub(crate) fn find_tubes(
             }
             let is_open =
                 |f: FaceId| cut.of_face[f.index()].is_none_or(|piece| open[piece as usize]);
-            places(&surface.mesh, |f| is_design(f) && is_open(f), area_each)
+            places(surface, is_open, area_each)
         } else {
-            places(&surface.mesh, is_design, area_each)
+            places(surface, |_| true, area_each)
         };
         let before = tubes.len();
         let mut progress = |done| match observer.progress(
