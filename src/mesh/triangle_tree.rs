@@ -37,6 +37,13 @@ struct TreeNode {
     count: u32,
 }
 
+/// The middle of a triangle, while the tree is built.
+#[derive(Clone, Copy)]
+struct Middle {
+    at: [f32; 3],
+    face: u32,
+}
+
 /// One place where a ray passes through the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
@@ -51,47 +58,50 @@ pub struct Crossing {
 impl TriangleTree {
     /// Builds the tree; `O(n log n)`.
     pub fn new(corners: Vec<[Point3<f64>; 3]>) -> Self {
-        let centres: Vec<[f32; 3]> = corners
-            .iter()
-            .map(|[a, b, c]| [0, 1, 2].map(|k| ((a[k] + b[k] + c[k]) / 3.0) as f32))
+        let third = |[a, b, c]: &[Point3<f64>; 3], k: usize| ((a[k] + b[k] + c[k]) / 3.0) as f32;
+        let mut middles: Vec<Middle> = (0..)
+            .zip(&corners)
+            .map(|(face, at)| Middle { at: [0, 1, 2].map(|k| third(at, k)), face })
             .collect();
-        let mut tree = Self {
-            nodes: Vec::with_capacity(corners.len() / 2 + 1),
-            faces: (0..corners.len() as u32).collect(),
-            corners,
-        };
-        if !tree.corners.is_empty() {
-            let mut faces = std::mem::take(&mut tree.faces);
-            tree.build(&mut faces, 0, &centres);
-            tree.faces = faces;
+        let mut tree =
+            Self { nodes: Vec::with_capacity(corners.len() / 2 + 1), faces: Vec::new(), corners };
+        if !middles.is_empty() {
+            tree.build(&mut middles, 0);
+            tree.faces = middles.iter().map(|m| m.face).collect();
         }
         tree
     }
 
-    fn build(&mut self, faces: &mut [u32], first: usize, centres: &[[f32; 3]]) {
-        let (low, high) = self.bounds(faces);
+    fn build(&mut self, middles: &mut [Middle], first: usize) {
         let node = self.nodes.len();
-        self.nodes.push(TreeNode { low, high, link: first as u32, count: faces.len() as u32 });
-        if faces.len() <= LEAF {
+        if middles.len() <= LEAF {
+            let (low, high) = self.bounds(middles);
+            let (link, count) = (first as u32, middles.len() as u32);
+            self.nodes.push(TreeNode { low, high, link, count });
             return;
         }
-        let axis = widest_axis(faces, centres);
-        let half = faces.len() / 2;
-        faces.select_nth_unstable_by(half, |&f, &g| {
-            let key = |i: u32| centres[i as usize][axis];
-            key(f).total_cmp(&key(g)).then(f.cmp(&g))
+        self.nodes.push(TreeNode { low: [0.0; 3], high: [0.0; 3], link: 0, count: 0 });
+        let axis = widest_axis(middles);
+        let half = middles.len() / 2;
+        middles.select_nth_unstable_by(half, |m, n| {
+            m.at[axis].total_cmp(&n.at[axis]).then(m.face.cmp(&n.face))
         });
-        let (near, far) = faces.split_at_mut(half);
-        self.build(near, first, centres);
-        self.nodes[node].link = self.nodes.len() as u32;
-        self.nodes[node].count = 0;
-        self.build(far, first + half, centres);
+        let (near, far) = middles.split_at_mut(half);
+        self.build(near, first);
+        let second = self.nodes.len();
+        self.build(far, first + half);
+        let [a, b] = [node + 1, second].map(|child| self.nodes[child]);
+        let [low, high] = [
+            [0, 1, 2].map(|k| a.low[k].min(b.low[k])),
+            [0, 1, 2].map(|k| a.high[k].max(b.high[k])),
+        ];
+        self.nodes[node] = TreeNode { low, high, link: second as u32, count: 0 };
     }
 
-    fn bounds(&self, faces: &[u32]) -> ([f32; 3], [f32; 3]) {
+    fn bounds(&self, middles: &[Middle]) -> ([f32; 3], [f32; 3]) {
         let mut low = [f64::INFINITY; 3];
         let mut high = [f64::NEG_INFINITY; 3];
-        for p in faces.iter().flat_map(|&f| &self.corners[f as usize]) {
+        for p in middles.iter().flat_map(|m| &self.corners[m.face as usize]) {
             for k in 0..3 {
                 low[k] = low[k].min(p[k]);
                 high[k] = high[k].max(p[k]);
@@ -215,13 +225,13 @@ impl TriangleTree {
     }
 }
 
-fn widest_axis(faces: &[u32], centres: &[[f32; 3]]) -> usize {
+fn widest_axis(middles: &[Middle]) -> usize {
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
-    for c in faces.iter().map(|&f| &centres[f as usize]) {
+    for m in middles {
         for k in 0..3 {
-            low[k] = low[k].min(c[k]);
-            high[k] = high[k].max(c[k]);
+            low[k] = low[k].min(m.at[k]);
+            high[k] = high[k].max(m.at[k]);
         }
     }
     let width = [0, 1, 2].map(|k| high[k] - low[k]);
