@@ -36,9 +36,9 @@ pub(crate) fn is_centred(draft: &Draft, junctions: Junctions) -> bool {
         Junctions::Centred => true,
         Junctions::Auto => {
             let at = draft.incidences();
-            let apart =
-                free_joints(draft, &at).filter(|&hub| is_apart(draft, &at[hub], hub)).count();
-            apart > 0 && apart as f64 >= OFTEN * free_joints(draft, &at).count() as f64
+            let joints = free_joints(draft, &at);
+            let apart = joints.iter().filter(|&&hub| is_apart(draft, &at[hub], hub)).count();
+            apart > 0 && apart as f64 >= OFTEN * joints.len() as f64
         }
     }
 }
@@ -46,7 +46,7 @@ pub(crate) fn is_centred(draft: &Draft, junctions: Junctions) -> bool {
 /// Moves every joint into the middle of the first points of its branches, about `step` away.
 pub(crate) fn centre_joints(draft: &mut Draft, surface: &Surface, step: f64) {
     let at = draft.incidences();
-    let joints: Vec<usize> = free_joints(draft, &at).collect();
+    let joints = free_joints(draft, &at);
     joints.iter().for_each(|&hub| draft.hubs[hub].is_centred = true);
     let mut beside = vec![[Point3::origin(); 2]; draft.runs.len()];
     let mut has_moved = vec![true; draft.hubs.len()];
@@ -73,14 +73,12 @@ pub(crate) fn centre_joints(draft: &mut Draft, surface: &Surface, step: f64) {
 }
 
 /// Joints that may lie anywhere.
-fn free_joints<'a>(
-    draft: &'a Draft,
-    at: &'a [Vec<(usize, usize)>],
-) -> impl Iterator<Item = usize> + 'a {
-    draft.hubs.iter().zip(at).enumerate().filter_map(|(i, (hub, runs))| {
-        let is_free = hub.kind == HubKind::Joint && hub.pinned.is_none() && !runs.is_empty();
-        is_free.then_some(i)
-    })
+fn free_joints(draft: &Draft, at: &[Vec<(usize, usize)>]) -> Vec<usize> {
+    let is_free = |&joint: &usize| {
+        let hub = &draft.hubs[joint];
+        hub.kind == HubKind::Joint && hub.pinned.is_none() && !at[joint].is_empty()
+    };
+    (0..draft.hubs.len()).filter(is_free).collect()
 }
 
 /// Whether the axes of a joint's runs pass each other.
