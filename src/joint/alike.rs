@@ -15,7 +15,7 @@
 use nalgebra::{Isometry3, Point2, Rotation2, Translation3, UnitQuaternion, Vector2, Vector3};
 
 use super::cut::{rise, slopes};
-use super::{CutBeam, Joints, PER_QUARTER};
+use super::{CutBeam, PER_QUARTER};
 use crate::cluster;
 use crate::frame::{Beam, Frame};
 use crate::section::outline::{Outline, Region};
@@ -54,9 +54,9 @@ pub struct Alike {
 }
 
 /// Finds the beams that are one piece.
-pub fn alike(frame: &Frame, joints: &Joints) -> Vec<Alike> {
+pub(super) fn alike(frame: &Frame, cuts: &[CutBeam]) -> Vec<Alike> {
     let all: Vec<Member<'_>> =
-        frame.beams.iter().zip(&joints.beams).map(|(beam, cut)| Member::new(beam, cut)).collect();
+        frame.beams.iter().zip(cuts).map(|(beam, cut)| Member::new(beam, cut)).collect();
     let group_of = groups(&all);
     let mut models: Vec<usize> = Vec::new();
     let mut found: Vec<Alike> = Vec::with_capacity(all.len());
@@ -366,10 +366,9 @@ mod tests {
         let at = |z: f64| Node { position: Point3::new(0.0, 0.0, z), kind: NodeKind::End };
         let (beams, cuts): (Vec<Beam>, Vec<CutBeam>) = beams.into_iter().unzip();
         let frame = Frame { nodes: vec![at(0.0), at(100.0)], beams };
-        let joints = Joints { beams: cuts, ..Joints::default() };
-        let all = alike(&frame, &joints);
+        let all = alike(&frame, &cuts);
         for (own, Alike { model, motion, .. }) in all.iter().enumerate() {
-            lies_in_place(&frame, &joints, *model, own, motion);
+            lies_in_place(&frame, &cuts, *model, own, motion);
         }
         all
     }
@@ -377,12 +376,12 @@ mod tests {
     /// Every corner of the placed model lies on the outline and at the cut of the beam.
     fn lies_in_place(
         frame: &Frame,
-        joints: &Joints,
+        cuts: &[CutBeam],
         model: usize,
         own: usize,
         motion: &Isometry3<f64>,
     ) {
-        let member = |i: usize| Member::new(&frame.beams[i], &joints.beams[i]);
+        let member = |i: usize| Member::new(&frame.beams[i], &cuts[i]);
         let (model, own) = (member(model), member(own));
         let heights = |m: &Member<'_>, p: Vector2<f64>| {
             let start = m.cut.ends[0].setback;

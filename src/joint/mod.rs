@@ -19,7 +19,8 @@
 //! ends in a saddle: a piece of the side of the member. Everything else is cut in planes, as by a
 //! saw; on a round through member such an end enters the member just so far that its edges touch.
 //!
-//! Beams that are cut alike are found by [`alike()`], for the cut list and for shared products.
+//! Beams that are cut [`Alike`] are one piece: one line of the cut list and one product of the STEP
+//! file.
 //!
 //! A joint that cannot be made (too oblique, or longer than the beam) leaves its ends as they are
 //! with a finding.
@@ -32,7 +33,7 @@ mod trim;
 
 use nalgebra::{Point3, Unit, Vector3};
 
-pub use alike::{Alike, SAME_PIECE, alike};
+pub use alike::{Alike, SAME_PIECE};
 pub use cut::{CutBeam, EndCut};
 pub use sphere::Ball;
 
@@ -63,6 +64,8 @@ pub struct Joints {
     pub kind: JointKind,
     /// The beams as they are cut, in the order of the frame.
     pub beams: Vec<CutBeam>,
+    /// Which beams are one piece, in the order of the frame.
+    pub alike: Vec<Alike>,
     /// Balls at nodes.
     pub balls: Vec<Ball>,
 }
@@ -115,7 +118,7 @@ pub fn joints(
             }
         }
     }
-    let beams = frame
+    let beams: Vec<CutBeam> = frame
         .beams
         .iter()
         .zip(ends)
@@ -126,7 +129,8 @@ pub fn joints(
             })
         })
         .collect();
-    (Joints { kind, beams, balls }, findings)
+    let alike = alike::alike(frame, &beams);
+    (Joints { kind, beams, alike, balls }, findings)
 }
 
 /// A beam at a node.

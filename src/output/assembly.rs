@@ -1,6 +1,6 @@
 //! The frame as a STEP assembly: one named, coloured solid a beam.
 //!
-//! Beams that are one piece (see [`alike()`]) share the solid and the properties of the first of
+//! Beams that are one piece (see [`Alike`]) share the solid and the properties of the first of
 //! them: its length and mass, all their branches, the worst of their errors.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
@@ -12,7 +12,7 @@ use crate::finding::{Finding, FindingKind};
 pub use crate::frame::mark;
 use crate::frame::shape::{BeamShape, ShapeStation};
 use crate::frame::{Beam, Frame};
-use crate::joint::{Alike, Ball, CutBeam, EndCut, Joints, SAME_PIECE, alike};
+use crate::joint::{Alike, Ball, CutBeam, EndCut, Joints, SAME_PIECE};
 use crate::mesh::Surface;
 use crate::section::matching::MatchErrors;
 use crate::section::outline::{Outline, Segment};
@@ -71,7 +71,7 @@ pub fn assembly(
     let mut models: Vec<Model> = Vec::new();
     let mut parts = Vec::with_capacity(frame.beams.len());
     let mut findings = Vec::new();
-    for (i, Alike { kind, motion, .. }) in alike(frame, joints).into_iter().enumerate() {
+    for (i, &Alike { kind, motion, .. }) in joints.alike.iter().enumerate() {
         let beam = &frame.beams[i];
         if kind == models.len() {
             let profile = beam.shape.name();

@@ -1,6 +1,6 @@
 //! The cut list: what to order, saw and paint.
 //!
-//! Beams that are one piece (see [`alike()`](crate::joint::alike())) are one line with a quantity.
+//! Beams that are one piece (see [`Alike`](crate::joint::Alike)) are one line with a quantity.
 //! Lines are sorted by profile and then by length, so that they do not depend on the order of faces
 //! in the mesh; `P01` is the first.
 //!

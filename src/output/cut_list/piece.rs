@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::CutListParams;
 use crate::frame::{Beam, Frame};
-use crate::joint::{Alike, CutBeam, Joints, alike};
+use crate::joint::{Alike, CutBeam, Joints};
 use crate::output::assembly::mark;
 use crate::section::matching::folded_angle;
 use crate::section::properties::{Contours, signed_area};
@@ -65,7 +65,7 @@ pub struct Piece {
 /// All kinds of pieces, sorted by profile and length, the longest first.
 pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
-    for (i, Alike { kind, off, .. }) in alike(frame, joints).into_iter().enumerate() {
+    for (i, &Alike { kind, off, .. }) in joints.alike.iter().enumerate() {
         let beam = &frame.beams[i];
         if kind == pieces.len() {
             pieces.push(piece(beam, &joints.beams[i], params));
