@@ -229,7 +229,7 @@ def _write_regions(objects: Sequence[Any], folder: str, job: Job) -> Triangles:
             "choose regions of one kind"
         )
     if job.regions:
-        job.notes.append(f"{len(job.regions)} closed region(s) are non-design")
+        job.notes.append(f"non-design: {len(job.regions)} of the regions, as closed bodies")
     return rest
 
 

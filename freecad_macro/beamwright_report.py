@@ -9,6 +9,16 @@ from pathlib import Path
 from typing import Any, Mapping, Sequence
 
 
+def counted(count: int, one: str, many: str) -> str:
+    """Say ``1 beam`` or ``2 beams``."""
+    return f"{count} {one if count == 1 else many}"
+
+
+def _counted(part: Mapping[str, Any], many: str, one: str) -> str:
+    """Say how many of something the summary names."""
+    return counted(part.get(many, 0), one, many)
+
+
 @dataclass
 class ReportText:
     """Lines about a run, as shown in the document and in the log."""
@@ -23,32 +33,34 @@ class ReportText:
         lines = [f"beamwright {version}: {summary.get('input', '')}", ""]
         if mesh:
             lines.append(
-                f"mesh: {mesh.get('triangles', 0)} triangles, genus {mesh.get('genus', 0)}, "
-                f"{mesh.get('volume', 0.0):.0f} mm³"
+                f"mesh: {_counted(mesh, 'triangles', 'triangle')}, "
+                f"genus {mesh.get('genus', 0)}, {mesh.get('volume', 0.0):.0f} mm³"
             )
         if labels.get("source"):
+            sections = len(labels.get("interfaces") or ())
+            interfaces = counted(sections, "interface section", "interface sections")
             lines.append(
                 f"non-design: {labels.get('non_design_faces', 0)} faces in "
-                f"{labels.get('sets', 0)} set(s) by {labels['source']}, "
-                f"{len(labels.get('interfaces') or ())} interface section(s)"
+                f"{_counted(labels, 'sets', 'set')} by {labels['source']}, {interfaces}"
             )
         else:
             lines.append("non-design: none; the whole mesh is design")
         if skeleton:
             lines.append(
-                f"skeleton: {skeleton.get('branches', 0)} branches, "
-                f"{skeleton.get('junctions', 0)} junctions, {skeleton.get('length', 0.0):.1f} mm; "
+                f"skeleton: {_counted(skeleton, 'branches', 'branch')}, "
+                f"{_counted(skeleton, 'junctions', 'junction')}, "
+                f"{skeleton.get('length', 0.0):.1f} mm; "
                 f"cycles {skeleton.get('cycles', 0)} of {skeleton.get('expected_cycles', 0)}"
             )
         if frame:
             lines.append(
-                f"frame: {frame.get('beams', 0)} beams, {frame.get('nodes', 0)} nodes, "
+                f"frame: {_counted(frame, 'beams', 'beam')}, {_counted(frame, 'nodes', 'node')}, "
                 f"{frame.get('length', 0.0):.1f} mm; {frame.get('volume', 0.0):.0f} mm³ of "
                 f"{frame.get('design_volume', 0.0):.0f} mm³ design"
             )
         findings = summary.get("findings") or ()
         lines.append("")
-        lines.append(f"{len(findings)} finding(s)" + (":" if findings else ""))
+        lines.append(counted(len(findings), "finding", "findings") + (":" if findings else ""))
         for finding in findings:
             place = finding.get("place")
             where = " at ({:.2f}, {:.2f}, {:.2f}) mm".format(*place) if place else ""

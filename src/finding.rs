@@ -22,6 +22,8 @@ pub enum FindingKind {
     Outside,
     /// The skeleton has other cycles, components or ends than the object.
     Topology,
+    /// Junctions that lie in the middle of the material instead of where axes meet.
+    CentredJunctions,
     /// A branch that ends freely.
     FreeEnd,
     /// Nodes so close to each other that they were made one.
@@ -54,6 +56,7 @@ impl FindingKind {
             Self::NotBeamLike => "not-beam-like",
             Self::Outside => "outside",
             Self::Topology => "topology",
+            Self::CentredJunctions => "centred-junctions",
             Self::FreeEnd => "free-end",
             Self::NodesMerged => "nodes-merged",
             Self::Deviation => "deviation",

@@ -51,3 +51,4 @@ pub mod section;
 mod segment;
 pub mod skeleton;
 pub mod skeleton_file;
+mod wording;

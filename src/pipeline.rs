@@ -22,6 +22,7 @@ use crate::section::catalogue::CatalogueError;
 use crate::section::matching::MatchError;
 use crate::skeleton::params::OutOfRange;
 use crate::skeleton::{self, Marched, Skeleton, SkeletonError, SkeletonParams};
+use crate::wording::counted;
 
 /// Everything that steers a run.
 #[derive(Clone, Debug)]
@@ -211,16 +212,29 @@ pub fn mesh_findings(surface: &Surface) -> Vec<Finding> {
     let report = &surface.report;
     let mut findings = Vec::new();
     let mended = [
-        (report.merged_near_points, "near point(s) merged"),
-        (report.degenerate_triangles, "triangle(s) without area dropped"),
-        (report.duplicate_triangles, "repeated triangle(s) dropped"),
-        (report.flipped_triangles, "triangle(s) turned round"),
-        (report.split_edges, "edge(s) of more than two triangles cut apart"),
-        (report.split_vertices, "vertex(es) shared by separate fans split"),
-        (report.closed_openings, "opening(s) closed"),
+        (report.merged_near_points, "near point merged", "near points merged"),
+        (
+            report.degenerate_triangles,
+            "triangle without area dropped",
+            "triangles without area dropped",
+        ),
+        (report.duplicate_triangles, "repeated triangle dropped", "repeated triangles dropped"),
+        (report.flipped_triangles, "triangle turned round", "triangles turned round"),
+        (
+            report.split_edges,
+            "edge of more than two triangles cut apart",
+            "edges of more than two triangles cut apart",
+        ),
+        (
+            report.split_vertices,
+            "vertex shared by separate fans split",
+            "vertices shared by separate fans split",
+        ),
+        (report.closed_openings, "opening closed", "openings closed"),
     ];
-    for (count, what) in mended.into_iter().filter(|m| m.0 > 0) {
-        findings.push(Finding::note(FindingKind::MeshMended, None, format!("{count} {what}")));
+    for (count, one, many) in mended.into_iter().filter(|m| m.0 > 0) {
+        let text = counted(count, one, many);
+        findings.push(Finding::note(FindingKind::MeshMended, None, text));
     }
     for cavity in &report.cavities {
         findings.push(Finding::note(
@@ -257,13 +271,14 @@ fn label_findings(surface: &Surface) -> Vec<Finding> {
         }
     }
     let labels = &surface.labels;
-    if labels.non_design_specks > 0 {
-        let count = labels.non_design_specks;
-        findings.push(note(format!("{count} speck(s) of non-design label counted as design")));
-    }
-    if labels.design_specks > 0 {
-        let count = labels.design_specks;
-        findings.push(note(format!("{count} speck(s) of design label counted as non-design")));
+    for (count, of, taken_for) in [
+        (labels.non_design_specks, "non-design", "design"),
+        (labels.design_specks, "design", "non-design"),
+    ] {
+        if count > 0 {
+            let specks = counted(count, "speck", "specks");
+            findings.push(note(format!("{specks} of {of} label counted as {taken_for}")));
+        }
     }
     findings
 }

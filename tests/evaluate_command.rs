@@ -170,7 +170,7 @@ fn strict_refuses_a_skeleton_that_leaves_the_part() {
     assert!(strict.stdout.contains("points outside"), "the table is printed all the same");
     assert_eq!(
         strict.stderr,
-        "error: a promise is broken: outside.obj has 5 point(s) outside; mend it, or leave out \
+        "error: a promise is broken by outside.obj: 5 of its points outside; mend it, or leave out \
          --strict to have it measured as it is\n"
     );
 }
@@ -188,7 +188,7 @@ fn strict_refuses_a_loop_in_a_bar_and_a_bar_in_two_pieces() {
     }
     let both = run(folder.path(), &["evaluate", "bar.obj", "ring.obj", "pieces.obj", "--strict"]);
     assert_eq!(both.stderr.lines().count(), 1, "{both:?}");
-    let said = "ring.obj has 1 cycle(s) instead of 0 (and 1 more of 2 skeletons);";
+    let said = "ring.obj: cycles 1 instead of 0 (and 1 more of 2 skeletons);";
     assert!(both.stderr.contains(said), "{both:?}");
     assert_eq!(run(folder.path(), &["evaluate", "bar.obj", "ring.obj"]).code, Some(0));
 }

@@ -83,7 +83,7 @@ fn faults_of_json_have_line_or_part() {
         (
             r#"{"format":"beamwright-skeleton","version":1,"unit":"mm",
           "points":[{"id":0,"position":[0,0,0]}],"branches":[]}"#,
-            "it has 1 point(s) but no segment between two of them",
+            "it has 1 point but no segment between two of them",
         ),
     ] {
         let message = message(text.as_bytes(), Format::Json);

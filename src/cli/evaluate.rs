@@ -161,7 +161,7 @@ fn breach(evaluated: &[Evaluated]) -> Option<String> {
         count => format!(" (and {count} more of {} skeletons)", evaluated.len()),
     };
     Some(format!(
-        "a promise is broken: {name} has {faults}{more}; mend it, or leave out --strict to have it \
+        "a promise is broken by {name}: {faults}{more}; mend it, or leave out --strict to have it \
          measured as it is"
     ))
 }
@@ -171,15 +171,15 @@ fn faults(e: &Evaluation) -> Vec<String> {
     let (outside, through) = (e.raw.points_outside, e.outside.segments_through_surface);
     let t = &e.topology;
     [
-        (outside > 0, format!("{outside} point(s) outside")),
-        (through > 0, format!("{through} segment(s) through the surface")),
+        (outside > 0, format!("{outside} of its points outside")),
+        (through > 0, format!("{through} of its segments through the surface")),
         (
             t.components != t.expected_components,
-            format!("{} component(s) instead of {}", t.components, t.expected_components),
+            format!("components {} instead of {}", t.components, t.expected_components),
         ),
         (
             t.cycle_rank != t.expected_cycle_rank,
-            format!("{} cycle(s) instead of {}", t.cycle_rank, t.expected_cycle_rank),
+            format!("cycles {} instead of {}", t.cycle_rank, t.expected_cycle_rank),
         ),
     ]
     .into_iter()

@@ -2,6 +2,8 @@
 
 use nalgebra::Point3;
 
+use crate::wording::counted;
+
 /// Why a surface cannot be turned into a closed, oriented, 2-manifold mesh.
 ///
 /// Places are model coordinates in mm, ready to be typed into a viewer.
@@ -29,8 +31,9 @@ pub enum MeshError {
 
     /// Edges with more than two triangles that do not enclose material.
     #[error(
-        "{edges} edge(s) join more than two triangles without enclosing material, the first at {}; \
-         remove inner walls (MeshLab: Filters > Cleaning > Repair non Manifold Edges) and try again",
+        "{} more than two triangles without enclosing material, the first at {}; remove inner walls \
+         (MeshLab: Filters > Cleaning > Repair non Manifold Edges) and try again",
+        counted(*edges, "edge joins", "edges join"),
         place(first)
     )]
     NonManifold {

@@ -5,12 +5,12 @@ use std::fmt::{self, Display, Write};
 use serde::Serialize;
 
 use super::beam_table::{self, BeamRow};
-use super::plain::counted;
 use crate::finding::Finding;
 use crate::frame::{self, BeamVolumes, Frame};
 use crate::mesh::{InterfaceKind, InterfaceSection, Label, MeshReport, Surface};
 use crate::skeleton::verify::Homotopy;
 use crate::skeleton::{PointKind, Skeleton};
+use crate::wording::counted;
 
 /// The mesh: what was read and mended.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -4,6 +4,7 @@ use super::graph::{PointKind, Skeleton};
 use super::local::patch::patches;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::{InterfaceKind, Surface};
+use crate::wording::counted;
 
 /// Components and independent cycles the skeleton of a surface must have: those of the design part
 /// closed over its interface sections (of the whole mesh, without labels).
@@ -37,11 +38,10 @@ pub fn verify(surface: &Surface, skeleton: &Skeleton) -> Vec<Finding> {
 fn points_outside(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
     let mut outside = skeleton.points.iter().filter(|p| !surface.tree.contains(&p.position));
     let first = outside.next()?.position;
-    Some(Finding::breach(
-        FindingKind::Outside,
-        Some(first),
-        format!("{} skeletal point(s) lie outside the object", 1 + outside.count()),
-    ))
+    Some(Finding::breach(FindingKind::Outside, Some(first), {
+        let lie = ["skeletal point lies", "skeletal points lie"];
+        format!("{} outside the object", counted(1 + outside.count(), lie[0], lie[1]))
+    }))
 }
 
 fn segments_outside(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
@@ -51,11 +51,10 @@ fn segments_outside(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
     let mut leaving = skeleton.segments().filter(crosses);
     let [a, b] = leaving.next()?;
     let place = nalgebra::center(&skeleton.position(a), &skeleton.position(b));
-    Some(Finding::breach(
-        FindingKind::Outside,
-        Some(place),
-        format!("{} segment(s) of the skeleton leave the object", 1 + leaving.count()),
-    ))
+    Some(Finding::breach(FindingKind::Outside, Some(place), {
+        let leave = ["segment of the skeleton leaves", "segments of the skeleton leave"];
+        format!("{} the object", counted(1 + leaving.count(), leave[0], leave[1]))
+    }))
 }
 
 fn topology(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
@@ -66,8 +65,11 @@ fn topology(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
             FindingKind::Topology,
             None,
             format!(
-                "the skeleton has {} component(s) and {} cycle(s), the design part {} and {}",
-                found.components, found.cycles, wanted.components, wanted.cycles
+                "the skeleton has {} and {}, the design part {} and {}",
+                counted(found.components, "component", "components"),
+                counted(found.cycles, "cycle", "cycles"),
+                wanted.components,
+                wanted.cycles
             ),
         )
     })
@@ -80,7 +82,10 @@ fn interface_ends(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
         Finding::breach(
             FindingKind::IdleInterface,
             None,
-            format!("{found} of {wanted} interface section(s) are the end of a branch"),
+            format!(
+                "{found} of {} at the end of a branch",
+                counted(wanted, "interface section is", "interface sections are")
+            ),
         )
     })
 }

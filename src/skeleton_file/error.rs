@@ -3,6 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use crate::wording::counted;
+
 pub use beamwright_formats::Place;
 
 /// Why a skeleton could not be read.
@@ -127,8 +129,9 @@ pub enum SkeletonFileError {
 
     /// The file is well-formed but holds no curve.
     #[error(
-        "cannot read {}: it has {points} point(s) but no segment between two of them{}",
+        "cannot read {}: it has {} but no segment between two of them{}",
         path.display(),
+        counted(*points, "point", "points"),
         if *faces > 0 { "; it has faces: is it a mesh?" } else { "" }
     )]
     NoSegments {

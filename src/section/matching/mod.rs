@@ -71,8 +71,9 @@ pub enum MatchError {
 
     /// No profile of the catalogue is as strong as the section.
     #[error(
-        "none of {profiles} catalogue profile(s) is as strong as the section (A = {area:.1} mm²); \
-         allow more families or match by stiffness"
+        "no profile of the catalogue ({} tried) is as strong as the section (A = {area:.1} mm²); \
+         allow more families or match by stiffness",
+        profiles
     )]
     NoneStrongEnough {
         /// Profiles that were tried.

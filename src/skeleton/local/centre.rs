@@ -11,8 +11,10 @@ use super::draft::{Draft, HubKind, Run};
 use super::junction::{axes_at, nearest_inside};
 use super::sample::moved;
 use super::trend::Trend;
+use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
 use crate::skeleton::params::Junctions;
+use crate::wording::counted;
 
 /// Most turns. Joints settle in about six.
 const TURNS: usize = 12;
@@ -29,18 +31,34 @@ const APART: f64 = 1.0 / 3.0;
 /// joint in seven of a coarse frame had, one in four of the cantilever of 1.4 mm.
 const OFTEN: f64 = 0.2;
 
-/// Whether joints lie in the middle of the material rather than where axes meet.
-pub(crate) fn is_centred(draft: &Draft, junctions: Junctions) -> bool {
+/// Whether joints lie in the middle of the material rather than where axes meet, and a word to the
+/// user where that was not asked for.
+pub(crate) fn is_centred(draft: &Draft, junctions: Junctions) -> (bool, Option<Finding>) {
     match junctions {
-        Junctions::Axes => false,
-        Junctions::Centred => true,
+        Junctions::Axes => (false, None),
+        Junctions::Centred => (true, None),
         Junctions::Auto => {
             let at = draft.incidences();
             let joints = free_joints(draft, &at);
-            let apart = joints.iter().filter(|&&hub| is_apart(draft, &at[hub], hub)).count();
-            apart > 0 && apart as f64 >= OFTEN * joints.len() as f64
+            let is_apart = |&&hub: &&usize| is_apart(draft, &at[hub], hub);
+            let apart = joints.iter().filter(is_apart).count();
+            let is_centred = apart > 0 && apart as f64 >= OFTEN * joints.len() as f64;
+            let first = joints.iter().find(is_apart).map(|&hub| draft.hubs[hub].position);
+            (is_centred, is_centred.then(|| no_straight_bars(apart, joints.len(), first)))
         }
     }
+}
+
+fn no_straight_bars(apart: usize, joints: usize, first: Option<Point3<f64>>) -> Finding {
+    let of = counted(joints, "junction", "junctions");
+    Finding::note(
+        FindingKind::CentredJunctions,
+        first,
+        format!(
+            "at {apart} of {of} the axes of the branches do not meet: junctions lie in the middle of \
+             the material (choose with --junctions)"
+        ),
+    )
 }
 
 /// Moves every joint into the middle of the first points of its branches, about `step` away.
@@ -121,17 +139,19 @@ mod tests {
 
     #[test]
     fn a_frame_of_lumpy_bars_keeps_its_axes() {
-        assert!(!is_centred(&joint(0.26), Junctions::Auto));
+        assert_eq!(is_centred(&joint(0.26), Junctions::Auto), (false, None));
     }
 
     #[test]
     fn where_axes_miss_each_other_the_middle_is_wanted() {
-        assert!(is_centred(&joint(0.41), Junctions::Auto));
+        let (is_centred, said) = is_centred(&joint(0.41), Junctions::Auto);
+        assert!(is_centred);
+        assert!(said.is_some_and(|s| s.text.starts_with("at 1 of 1 junction the axes")));
     }
 
     #[test]
     fn what_is_asked_for_decides() {
-        assert!(!is_centred(&joint(0.41), Junctions::Axes));
-        assert!(is_centred(&joint(0.0), Junctions::Centred));
+        assert_eq!(is_centred(&joint(0.41), Junctions::Axes), (false, None));
+        assert_eq!(is_centred(&joint(0.0), Junctions::Centred), (true, None));
     }
 }

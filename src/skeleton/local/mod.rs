@@ -44,6 +44,7 @@ use super::params::SkeletonParams;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
 use crate::observer::Observer;
+use crate::wording::counted;
 
 /// Marches the skeleton of a surface in the local frame.
 ///
@@ -66,11 +67,12 @@ pub fn skeleton(
         return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }
     let step = params.step * mean_radius;
-    if centre::is_centred(&draft, params.junctions) {
+    let (is_centred, said) = centre::is_centred(&draft, params.junctions);
+    if is_centred {
         centre::centre_joints(&mut draft, surface, step);
     }
     let skeleton = assemble::assemble(surface, step, &draft);
-    Ok(Marched { skeleton, findings: findings(surface, &draft) })
+    Ok(Marched { skeleton, findings: findings(surface, &draft, said) })
 }
 
 /// A single rod with free ends is shorter than this many of its radii when it is a block: a cube is
@@ -85,7 +87,7 @@ fn is_block(draft: &Draft) -> bool {
     is_free && (a.position - b.position).norm() < BLOCK * run.radius()
 }
 
-fn findings(surface: &Surface, draft: &Draft) -> Vec<Finding> {
+fn findings(surface: &Surface, draft: &Draft, centred: Option<Finding>) -> Vec<Finding> {
     let idle = draft.idle_interfaces.iter().map(|&i| {
         Finding::note(
             FindingKind::IdleInterface,
@@ -97,8 +99,8 @@ fn findings(surface: &Surface, draft: &Draft) -> Vec<Finding> {
         Finding::note(
             FindingKind::NotBeamLike,
             None,
-            format!("{} body(ies) without any rod were left out", draft.blobs),
+            format!("{} without any rod left out", counted(draft.blobs, "body", "bodies")),
         )
     });
-    idle.chain(blobs).collect()
+    idle.chain(blobs).chain(centred).collect()
 }
