@@ -1,5 +1,7 @@
 //! Non-design sets (thesis §3.4.1.1), cleaned of the specks that label noise leaves.
 
+use nalgebra::Point3;
+
 use super::edges::Buckets;
 use super::half_edge::HalfEdgeMesh;
 use super::id::{FaceId, HalfEdgeId, SetId};
@@ -10,6 +12,11 @@ use super::label::Label;
 /// section. A pad that carries a strut is at least as large as the strut's section (1); a strut is
 /// larger still; label noise is a few triangles (below 0.1).
 const SPECK: f64 = 0.25;
+
+/// A patch of design faces with one border, and smaller than so many times the area inside it, is a
+/// part of the non-design part it lies on: a face of a pad that was not labelled has 1, the end of
+/// a strut that pokes out of a pad 1 to 3. A peg one and a half radii long has 4.
+const LUMP: f64 = 3.0;
 
 /// The labels of all faces and what was cleaned.
 #[derive(Clone, Debug, Default)]
@@ -41,12 +48,15 @@ impl Labels {
     }
 
     fn clean(&mut self, mesh: &HalfEdgeMesh, non_design: &mut [bool]) {
-        let typical = typical_loop_area(mesh, non_design);
+        let typical = typical_area(&Border::all(mesh, non_design));
         // Twice: a speck may hold a speck.
         for _ in 0..2 {
-            for patch in patches(mesh, non_design) {
+            let borders = Border::all(mesh, non_design);
+            let patches = patches(mesh, non_design);
+            let lumps = lumps(&borders, &patches, mesh.face_count());
+            for (patch, lump) in patches.iter().zip(lumps) {
                 let area: f64 = patch.iter().map(|&f| mesh.face_area(f)).sum();
-                if area >= SPECK * typical {
+                if area >= (SPECK * typical).max(lump) {
                     continue;
                 }
                 let was_design = !non_design[patch[0].index()];
@@ -124,17 +134,50 @@ fn patches(mesh: &HalfEdgeMesh, non_design: &[bool]) -> Vec<Vec<FaceId>> {
     found
 }
 
-/// The loop area that divides the sum of all loop areas in half: many small loops of label noise
-/// do not shift it.
-fn typical_loop_area(mesh: &HalfEdgeMesh, non_design: &[bool]) -> f64 {
-    let is_design = |h: HalfEdgeId| !non_design[h.face().index()];
-    let mut areas: Vec<f64> = border_loops(mesh, is_design)
-        .iter()
-        .map(|l| {
-            LoopFrame::of(&l.iter().map(|&h| mesh.position(mesh.origin(h))).collect::<Vec<_>>())
-                .area
-        })
-        .collect();
+/// A border of the design faces.
+struct Border {
+    /// A design face beside it.
+    face: FaceId,
+    /// Area inside it, mm².
+    area: f64,
+}
+
+impl Border {
+    fn all(mesh: &HalfEdgeMesh, non_design: &[bool]) -> Vec<Self> {
+        let is_design = |h: HalfEdgeId| !non_design[h.face().index()];
+        let points = |l: &[HalfEdgeId]| -> Vec<Point3<f64>> {
+            l.iter().map(|&h| mesh.position(mesh.origin(h))).collect()
+        };
+        border_loops(mesh, is_design)
+            .iter()
+            .map(|l| Self { face: l[0].face(), area: LoopFrame::of(&points(l)).area })
+            .collect()
+    }
+}
+
+/// The area below which each patch is a lump on the part beside it; 0 for those that have more than
+/// one border or none, and for the largest patch with any.
+fn lumps(borders: &[Border], patches: &[Vec<FaceId>], faces: usize) -> Vec<f64> {
+    let mut patch_of_face = vec![0; faces];
+    for (p, patch) in patches.iter().enumerate() {
+        patch.iter().for_each(|f| patch_of_face[f.index()] = p);
+    }
+    let mut least = vec![0.0; patches.len()];
+    let mut count = vec![0; patches.len()];
+    for border in borders {
+        let patch = patch_of_face[border.face.index()];
+        count[patch] += 1;
+        least[patch] = if count[patch] == 1 { LUMP * border.area } else { 0.0 };
+    }
+    let largest = (0..patches.len()).filter(|&p| count[p] > 0).max_by_key(|&p| patches[p].len());
+    largest.into_iter().for_each(|p| least[p] = 0.0);
+    least
+}
+
+/// The area that divides the sum of the areas inside all borders in half: many small ones of label
+/// noise do not shift it.
+fn typical_area(borders: &[Border]) -> f64 {
+    let mut areas: Vec<f64> = borders.iter().map(|b| b.area).collect();
     areas.sort_by(f64::total_cmp);
     let half = areas.iter().sum::<f64>() / 2.0;
     let mut sum = 0.0;

@@ -154,6 +154,20 @@ fn ring_shaped_parts_anchor_their_branches_and_their_hole_is_no_cycle() {
 }
 
 #[test]
+fn a_face_of_a_pad_that_was_not_labelled_is_a_part_of_it() {
+    let mesh = bar().mesh(2.0);
+    let labels = mesh.non_design.clone();
+    let clean = skeleton(folder_with(&mesh).path(), &[]);
+    // The outer face of the first pad, as far as the strut is thick.
+    let least = mesh.positions.iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+    let mut mesh = mesh.labelled(|[x, y, z]| x < least + 0.1 && y.hypot(z) < 4.0);
+    let count = mesh.non_design.iter().filter(|&&is_chosen| is_chosen).count();
+    assert!(count > 20, "{count}");
+    mesh.non_design.iter_mut().zip(labels).for_each(|(f, pad)| *f = pad && !*f);
+    assert_eq!(skeleton(folder_with(&mesh).path(), &[]), clean);
+}
+
+#[test]
 fn specks_of_label_noise_do_not_become_branches() {
     let mut mesh = corner().mesh(1.6);
     let clean = skeleton(folder_with(&mesh).path(), &[]);
