@@ -116,6 +116,7 @@ impl BeamSection {
         if stations.iter().any(own) {
             stations.retain(own);
         }
+        stations.iter_mut().for_each(|s| s.at = s.at.clamp(0.0, 1.0));
         weigh(&mut stations);
         if stations.is_empty() {
             return Self::default();

@@ -14,7 +14,7 @@
 //! | 4 | nodes that left the material held to the skeleton | `hold` |
 //! | 5 | nodes closer than a section radius made one, pieces that still bend broken | `pieces`, `bend` |
 //! | 6 | members that run through a junction kept in one piece, if wanted | `continuous` |
-//! | 7 | mean and end values of the sections along each beam | [`beam_section`], `measured` |
+//! | 7 | mean and end values of the sections along each beam that are its own | [`beam_section`], `own`, `measured` |
 //! | 8 | a profile for every beam | [`profiles`] |
 
 pub mod beam_section;
@@ -27,6 +27,7 @@ mod lofts;
 mod measured;
 pub mod moments;
 pub mod normalize;
+mod own;
 pub mod params;
 mod pieces;
 pub mod profiles;

@@ -85,7 +85,7 @@ fn settle_nodes(making: &mut Making<'_>, surface: &Surface) {
 fn beam(making: &Making<'_>, piece: &Piece) -> Beam {
     let [a, b] = making.axis(piece);
     let length = (b - a).norm();
-    let found = making.sections_of(piece);
+    let found = making.own_sections_of(piece);
     let free = BeamAxes::along(direction(&a, &b));
     let (.., angle) = BeamSection::new(&found, a, length, &free).mean.principal();
     let axes = free.rolled(angle);

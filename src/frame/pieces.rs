@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::beam_section::{BeamAxes, BeamSection, BeamStation};
 use super::params::FrameParams;
 use super::section_at::Section;
 use super::solve::{Anchor, Pull, Tie, solve_nodes};
 use super::straighten::breaks;
-use super::{Node, NodeKind, direction};
+use super::{Node, NodeKind};
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::InterfaceSection;
 use crate::mesh::interface_section::nearest_section;
@@ -29,15 +28,6 @@ pub(super) struct Piece {
 /// A branch is not broken beforehand into pieces shorter than this many of its radii: next to a
 /// junction a branch turns into it, which is no bend of the beam.
 const SHORTEST_PIECE: f64 = 3.0;
-
-/// Radii round a junction within which sections may hold a part of other branches: radii of the piece.
-const JUNCTION_REACH: f64 = 3.0;
-
-/// Part of the mean area from which on a section holds more of other branches than is a swelling of its
-/// own, as that of a slim brace next to its node on the chord of a truss, which has three times its
-/// area: it may lie as far off as the thickest branch reaches. Ties that widen into a junction gain a
-/// fifth.
-const SWALLOWED: f64 = 1.5;
 
 /// Pieces and nodes in the making.
 pub(super) struct Making<'a> {
@@ -118,18 +108,6 @@ impl<'a> Making<'a> {
         piece.ends.map(|n| self.nodes[n].position)
     }
 
-    /// Sections along a piece.
-    pub(super) fn sections_of(&self, piece: &Piece) -> Vec<&'a Section> {
-        piece.points.iter().filter_map(|&p| self.sections[p as usize].as_ref()).collect()
-    }
-
-    /// What the sections of a piece say, in axes turned to nothing in particular.
-    pub(super) fn beam_section(&self, piece: &Piece) -> BeamSection {
-        let [a, b] = self.axis(piece);
-        let axes = BeamAxes::along(direction(&a, &b));
-        BeamSection::new(&self.sections_of(piece), a, (b - a).norm(), &axes)
-    }
-
     /// Mean radius of the sections of a piece, or of its points where it has none, mm.
     pub(super) fn radius(&self, piece: &Piece) -> f64 {
         let of_point = |&p: &u32| {
@@ -184,27 +162,6 @@ impl<'a> Making<'a> {
                 Some(Pull { ends: piece.ends, centroid: found.centroid, weight, metric })
             })
             .collect()
-    }
-
-    /// How far a section is the piece's own, 1 to 0. Swollen next to a junction it holds a part of
-    /// other branches; elsewhere it is only thick.
-    pub(super) fn own(&self, piece: &Piece, station: &BeamStation) -> f64 {
-        let Some(section) = &self.sections[station.point as usize] else { return 0.0 };
-        let own = self.radius(piece);
-        let is_swallowed = section.radius() > SWALLOWED.sqrt() * own;
-        let near_junction = piece.ends.iter().any(|&n| {
-            let node = &self.nodes[n];
-            let thickest = if is_swallowed { self.thickest_at(n) } else { 0.0 };
-            node.kind == NodeKind::Junction
-                && (node.position - section.centroid).norm() < JUNCTION_REACH * own.max(thickest)
-        });
-        if near_junction { station.weight } else { 1.0 }
-    }
-
-    /// Largest mean radius of the branches at a node, mm.
-    fn thickest_at(&self, node: usize) -> f64 {
-        let there = self.pieces.iter().filter(|p| p.ends.contains(&node));
-        there.map(|p| self.branch_radius(p)).fold(0.0, f64::max)
     }
 
     /// Makes one node of two that a piece shorter than a section radius joins; whether any was.
