@@ -220,14 +220,31 @@ fn long_options(help: &str) -> Vec<String> {
 }
 
 #[test]
-fn an_unknown_option_in_the_file_is_named() -> Outcome {
+fn what_is_wrong_with_an_option_of_a_file_is_told_with_its_line() -> Outcome {
     let folder = tempfile::tempdir()?;
-    std::fs::write(folder.path().join("a.toml"), "profil = \"round\"\n")?;
-    let words = ["reconstruct", "x.obj", "-o", "x.step", "--config", "a.toml"];
-    let done = beamwright(folder.path(), &words)?;
-    assert_eq!(done.status.code(), Some(2));
-    let error = String::from_utf8(done.stderr)?;
-    assert_eq!(error, "error: cannot use the options of a.toml: there is no option profil\n");
+    let bar = sample("single_bar.obj");
+    let bar = bar.to_string_lossy();
+    let told = |text: &str, more: &[&str]| -> Result<String, Box<dyn std::error::Error>> {
+        std::fs::write(folder.path().join("a.toml"), text)?;
+        let words = ["reconstruct", &bar, "-o", "x.step", "--config", "a.toml"];
+        let done = beamwright(folder.path(), &[&words[..], more].concat())?;
+        assert_eq!(done.status.code(), Some(2), "{text}");
+        Ok(String::from_utf8(done.stderr)?)
+    };
+    for (text, fault) in [
+        ("profil = \"round\"\n", "line 1: there is no option profil"),
+        ("# ours\n\nstrict = true\nstep = 5\n", "line 4: --step must lie in [0.1, 2], but is 5"),
+        ("\nkerf = -1\n", "line 2: --kerf must be"),
+        ("json = true\nstep = \"x\"", "line 2: invalid value 'x' for '--step <RADII>'"),
+        ("joints = \"weld\"\nstep = 1", "line 1: invalid value 'weld' for '--joints"),
+        ("\nstrict = 1", "line 2: the option strict is true or false"),
+    ] {
+        let error = told(text, &[])?;
+        let wanted = format!("error: cannot use the options of a.toml: {fault}");
+        assert!(error.starts_with(&wanted), "{text}: {error}");
+    }
+    // What was typed is not the fault of the file.
+    assert!(told("step = 1", &["--step", "5"])?.starts_with("error: --step must lie"));
     Ok(())
 }
 

@@ -9,13 +9,15 @@
 //!
 //! The options of the file are put before what was typed, so that what was typed counts more; lists
 //! are joined. A file may serve several subcommands: options that another one has are passed over.
+//! What is wrong with an option of the file is told with its line there.
 
+use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use beamwright::output::{OutputFiles, check_target};
 use clap::{Arg, ArgAction, ArgMatches, Command, CommandFactory};
-use toml::{Table, Value};
+use toml::{Spanned, Value};
 
 use super::args::Cli;
 use super::exit::{Exit, Failure};
@@ -29,35 +31,82 @@ const OF_ONE_RUN: [&str; 8] =
 const OUTPUTS: [&str; 6] = ["cut-list", "skeleton", "sections", "export", "picture", "report"];
 
 /// What was typed, with the options of its `--config` put behind the subcommand.
-///
-/// # Errors
-/// A file that cannot be read, is no TOML, or has an option that no subcommand knows.
-pub(crate) fn with_options(
-    typed: impl IntoIterator<Item = OsString>,
-) -> Result<Vec<OsString>, Failure> {
-    let mut typed: Vec<OsString> = typed.into_iter().collect();
-    let Some(path) = config_of(&typed) else { return Ok(typed) };
-    let all = Cli::command();
-    let place = typed.iter().position(|w| all.find_subcommand(w).is_some());
-    let Some(place) = place else { return Ok(typed) };
-    let path = Path::new(&path);
-    let fault = |what: &dyn std::fmt::Display| {
-        Failure::usage(format!("cannot use the options of {}: {what}", path.display()))
-    };
-    let text = std::fs::read_to_string(path).map_err(|e| fault(&e))?;
-    let table: Table = text.parse().map_err(|e: toml::de::Error| fault(&e))?;
-    let mut words = Vec::new();
-    for (name, value) in &table {
-        let of = |command: &Command| flag(command, name).cloned();
-        let here = all.find_subcommand(&typed[place]).and_then(of).or_else(|| of(&all));
-        match here {
-            Some(arg) => words.extend(words_of(&arg, name, value).map_err(|e| fault(&e))?),
-            None if all.get_subcommands().any(|c| of(c).is_some()) => {}
-            None => return Err(fault(&format!("there is no option {name}"))),
-        }
+#[derive(Debug)]
+pub(crate) struct Words {
+    /// All of them, as if they had been typed.
+    pub(crate) all: Vec<OsString>,
+    file: Option<FileOptions>,
+}
+
+/// Options that a file set.
+#[derive(Debug)]
+struct FileOptions {
+    path: PathBuf,
+    /// Where each stands, counted from 1; without those that were typed too.
+    lines: BTreeMap<String, usize>,
+}
+
+impl FileOptions {
+    fn fault(&self, what: &dyn std::fmt::Display) -> String {
+        format!("cannot use the options of {}: {what}", self.path.display())
     }
-    typed.splice(place + 1..=place, words);
-    Ok(typed)
+}
+
+impl Words {
+    /// Reads the options of the file that was typed.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is no TOML, or has an option that no subcommand knows.
+    pub(crate) fn new(typed: impl IntoIterator<Item = OsString>) -> Result<Self, Failure> {
+        let mut typed: Vec<OsString> = typed.into_iter().collect();
+        let all = Cli::command();
+        let place = typed.iter().position(|w| all.find_subcommand(w).is_some());
+        let (Some(path), Some(place)) = (config_of(&typed), place) else {
+            return Ok(Self { all: typed, file: None });
+        };
+        let mut file = FileOptions { path: path.into(), lines: BTreeMap::new() };
+        let text = std::fs::read_to_string(&file.path);
+        let text = text.map_err(|e| Failure::usage(file.fault(&e)))?;
+        let table: BTreeMap<Spanned<String>, Value> =
+            toml::from_str(&text).map_err(|e| Failure::usage(file.fault(&e)))?;
+        let mut words = Vec::new();
+        for (name, value) in &table {
+            let line = 1 + text[..name.span().start].matches('\n').count();
+            let fault = |what: String| Failure::usage(file.fault(&format!("line {line}: {what}")));
+            let name = name.as_ref();
+            let of = |command: &Command| flag(command, name).cloned();
+            let here = all.find_subcommand(&typed[place]).and_then(of).or_else(|| of(&all));
+            match here {
+                Some(arg) => words.extend(words_of(&arg, name, value).map_err(fault)?),
+                None if all.get_subcommands().any(|c| of(c).is_some()) => {}
+                None => return Err(fault(format!("there is no option {name}"))),
+            }
+            if !is_typed(&typed, name) {
+                file.lines.insert(name.clone(), line);
+            }
+        }
+        typed.splice(place + 1..=place, words);
+        Ok(Self { all: typed, file: Some(file) })
+    }
+
+    /// A fault of an option as a message with its place, if the file set the option; the fault names
+    /// the option as it is typed.
+    pub(crate) fn placed(&self, fault: &str) -> Option<String> {
+        let file = self.file.as_ref()?;
+        let (_, named) = fault.split_once("--")?;
+        let end = named.find(|c: char| !c.is_alphanumeric() && c != '-').unwrap_or(named.len());
+        let line = file.lines.get(&named[..end])?;
+        Some(file.fault(&format!("line {line}: {fault}")))
+    }
+}
+
+/// Whether an option is among the words, `--NAME VALUE` or `--NAME=VALUE`.
+fn is_typed(words: &[OsString], name: &str) -> bool {
+    let is_it = |word: &str| {
+        let rest = word.strip_prefix("--").and_then(|w| w.strip_prefix(name));
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
+    };
+    words.iter().any(|word| word.to_str().is_some_and(is_it))
 }
 
 /// The file named by `--config FILE` or `--config=FILE`.

@@ -24,27 +24,22 @@ use clap::Parser;
 use clap::error::ErrorKind;
 
 use self::args::{Cli, Command};
+use self::config::Words;
 use self::exit::{Exit, Failure};
 use self::progress::Progress;
 
 /// Runs the command line.
 pub(crate) fn main() -> ExitCode {
-    let typed = match config::with_options(std::env::args_os()) {
-        Ok(typed) => typed,
+    let words = match Words::new(std::env::args_os()) {
+        Ok(words) => words,
         Err(failure) => return ended(Err(failure)),
     };
-    let cli = match Cli::try_parse_from(&typed) {
+    let cli = match Cli::try_parse_from(&words.all) {
         Ok(cli) => cli,
-        Err(error) => {
-            // Help and version go to standard output and are no failure.
-            let asked_for =
-                matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
-            let _ = error.print();
-            return if asked_for { Exit::Done } else { Exit::Usage }.into();
-        }
+        Err(error) => return ended(not_parsed(&error, &words)),
     };
     if let Some(file) = &cli.global.write_config {
-        return ended(config::write(file, &typed));
+        return ended(config::write(file, &words.all));
     }
     progress::watch_for_interrupt();
     let mut progress = Progress::new(&cli.global);
@@ -58,7 +53,28 @@ pub(crate) fn main() -> ExitCode {
         Command::Inspect(args) => inspect::run(args, &cli.global, &mut progress),
     };
     progress.finish();
-    ended(end)
+    ended(end.map_err(|failure| match words.placed(&failure.message) {
+        Some(message) if failure.exit == Exit::Usage => Failure { message, ..failure },
+        _ => failure,
+    }))
+}
+
+/// What is printed in place of a run: what was asked for, or what cannot be understood.
+fn not_parsed(error: &clap::Error, words: &Words) -> Result<Exit, Failure> {
+    // Help and version go to standard output and are no failure.
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        show::printed(error.print())?;
+        return Ok(Exit::Done);
+    }
+    let text = error.to_string();
+    let fault = text.strip_prefix("error: ").and_then(|text| text.split("\n\n").next());
+    match fault.and_then(|fault| words.placed(fault)) {
+        Some(message) => Err(Failure::usage(message)),
+        None => {
+            let _ = error.print();
+            Ok(Exit::Usage)
+        }
+    }
 }
 
 fn ended(end: Result<Exit, Failure>) -> ExitCode {

@@ -41,7 +41,12 @@ pub(crate) fn summary(
 
 /// Writes to standard output; a reader that has gone away is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    match io::stdout().lock().write_all(text.as_bytes()) {
+    printed(io::stdout().lock().write_all(text.as_bytes()))
+}
+
+/// What became of something printed on standard output, once all of it has left the program.
+pub(crate) fn printed(result: io::Result<()>) -> Result<(), Failure> {
+    match result.and_then(|()| io::stdout().lock().flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::input(format!("cannot write to standard output: {error}")))
         }

@@ -22,7 +22,7 @@ pub(crate) fn check<'a>(
         check_target(target).map_err(Failure::input)?;
         let place = place(target);
         let shown = target.display();
-        if inputs().any(|i| i.canonicalize().is_ok_and(|i| i == place)) {
+        if inputs().any(|i| i.canonicalize().is_ok_and(|i| i == place || is_one_file(&i, &place))) {
             return Err(Failure::usage(format!("the output {shown} is an input file")));
         }
         if places.contains(&place) {
@@ -40,6 +40,20 @@ fn place(path: &Path) -> PathBuf {
         let folder = folder.unwrap_or(Path::new(".")).canonicalize().unwrap_or_default();
         folder.join(path.file_name().unwrap_or(OsStr::new("")))
     })
+}
+
+/// Whether two names are those of one file (hard links).
+#[cfg(unix)]
+fn is_one_file(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let id = |path: &Path| path.metadata().ok().map(|m| (m.dev(), m.ino()));
+    id(a).is_some_and(|a| id(b) == Some(a))
+}
+
+/// Whether two names are those of one file: the standard library cannot tell here.
+#[cfg(not(unix))]
+fn is_one_file(_: &Path, _: &Path) -> bool {
+    false
 }
 
 /// Puts files in their places, unless the user asked to stop.

@@ -1,12 +1,14 @@
-//! Output files appear whole or not at all.
+//! The output files of a run appear all together or not at all.
 //!
 //! Everything is written to temporary files beside the targets; only when all are complete are they
-//! renamed over them. A failure on the way leaves what was there before.
+//! renamed over them. What was there is kept aside until the last is in its place: where one cannot
+//! be renamed, those before it are taken back.
 
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, TempPath};
 
 /// Files that are written together.
 #[derive(Debug, Default)]
@@ -24,33 +26,25 @@ pub struct WriteError {
     pub source: io::Error,
 }
 
-/// Whether a file can be created at a path: its folder is there, and what is there already is a
-/// file.
+/// Whether a file can be created at a path: its folder is there, its name can be, and what is there
+/// already is a file.
 ///
 /// # Errors
 /// What creating it would fail with.
 pub fn check_target(path: &Path) -> Result<(), WriteError> {
-    let fail = |kind: io::ErrorKind, what: &str| {
-        Err(WriteError { path: path.to_owned(), source: io::Error::new(kind, what.to_owned()) })
-    };
-    if path.is_dir() {
-        return fail(io::ErrorKind::IsADirectory, "it is a folder");
-    }
-    if path.exists() && !path.is_file() {
-        return fail(io::ErrorKind::InvalidInput, "it is a device or pipe, not a file");
-    }
-    if !folder_of(path).is_dir() {
-        return fail(io::ErrorKind::NotFound, "its folder does not exist");
-    }
-    Ok(())
-}
-
-/// What lies behind an error that tells the name of a temporary file.
-fn cause(error: io::Error) -> io::Error {
-    let behind = error.get_ref().and_then(|e| e.source()).map(ToString::to_string);
-    match behind {
-        Some(text) => io::Error::new(error.kind(), text),
-        None => error,
+    let failed = |source: io::Error| Err(WriteError { path: path.to_owned(), source });
+    let fail = |kind: io::ErrorKind, what: &str| failed(io::Error::new(kind, what.to_owned()));
+    match fs::metadata(path) {
+        Ok(there) if there.is_dir() => fail(io::ErrorKind::IsADirectory, "it is a folder"),
+        Ok(there) if !there.is_file() => {
+            fail(io::ErrorKind::InvalidInput, "it is a device or pipe, not a file")
+        }
+        Ok(_) => Ok(()),
+        Err(_) if !folder_of(path).is_dir() => {
+            fail(io::ErrorKind::NotFound, "its folder does not exist")
+        }
+        Err(fault) if fault.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(fault) => failed(fault),
     }
 }
 
@@ -58,6 +52,55 @@ fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
+    }
+}
+
+/// Makes something under a name that nothing has, in a folder. What fails is told without that name,
+/// which means nothing to the user.
+fn under_new_name<T>(
+    folder: &Path,
+    suffix: &str,
+    mut make: impl FnMut(&Path) -> io::Result<T>,
+) -> io::Result<NamedTempFile<T>> {
+    let mut code = None;
+    let made = Builder::new()
+        .prefix(".beamwright-")
+        .suffix(suffix)
+        .make_in(folder, |path| make(path).inspect_err(|fault| code = fault.raw_os_error()));
+    made.map_err(|fault| code.map_or(fault, io::Error::from_raw_os_error))
+}
+
+/// What is in a file, under a second name beside it; none where there is no file.
+fn set_aside(path: &Path) -> io::Result<Option<TempPath>> {
+    // A folder is never replaced.
+    if fs::symlink_metadata(path).map_or(true, |there| there.is_dir()) {
+        return Ok(None);
+    }
+    // Not every file system has two names for a file; there it has only the second for a while.
+    let aside = under_new_name(folder_of(path), ".old", |name| fs::hard_link(path, name))
+        .or_else(|_| under_new_name(folder_of(path), ".old", |name| fs::rename(path, name)))?;
+    Ok(Some(aside.into_temp_path()))
+}
+
+/// A file in its place, and what was there.
+struct Placed {
+    path: PathBuf,
+    before: Option<TempPath>,
+}
+
+impl Placed {
+    /// Puts back what was there. What cannot be put back stays beside, under its other name.
+    fn take_back(self) {
+        match self.before {
+            Some(before) => {
+                if let Err(fault) = before.persist(&self.path) {
+                    let _ = fault.path.keep();
+                }
+            }
+            None => {
+                let _ = fs::remove_file(&self.path);
+            }
+        }
     }
 }
 
@@ -73,15 +116,10 @@ impl OutputFiles {
     ) -> Result<(), WriteError> {
         let failed = |source: io::Error| WriteError { path: path.to_owned(), source };
         let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let mut builder = Builder::new();
-        builder.prefix(".beamwright-").suffix(".part");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // As any new file: the user's mask decides.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let file = builder.tempfile_in(folder_of(&target)).map_err(|e| failed(cause(e)))?;
+        let file = under_new_name(folder_of(&target), ".part", |name| {
+            File::options().write(true).create_new(true).open(name)
+        })
+        .map_err(failed)?;
         // Past the temporary file, whose errors tell its own name.
         let mut buffered = BufWriter::with_capacity(1 << 16, file.as_file());
         write(&mut buffered).map_err(|e| failed(io::Error::other(e.to_string())))?;
@@ -99,14 +137,31 @@ impl OutputFiles {
     /// Puts all files in their places.
     ///
     /// # Errors
-    /// The first file that cannot be renamed; those after it are not written.
+    /// The first file that cannot be put there; then all is as it was before.
     pub fn commit(self) -> Result<(), WriteError> {
+        let mut placed: Vec<Placed> = Vec::new();
         for (path, file) in self.pending {
-            file.persist(&path)
-                .map_err(|e| WriteError { path: path.clone(), source: cause(e.error) })?;
+            if let Err(source) = put(file, &path, &mut placed) {
+                placed.into_iter().rev().for_each(Placed::take_back);
+                return Err(WriteError { path, source });
+            }
         }
         Ok(())
     }
+}
+
+/// Puts a file in its place and notes what was there.
+fn put(file: NamedTempFile, path: &Path, placed: &mut Vec<Placed>) -> io::Result<()> {
+    let before = set_aside(path)?;
+    let put = file.persist(path).map_err(|fault| fault.error);
+    let done = Placed { path: path.to_owned(), before };
+    match put {
+        Ok(_) => placed.push(done),
+        // Where it was set aside by renaming.
+        Err(_) if done.before.is_some() => done.take_back(),
+        Err(_) => {}
+    }
+    put.map(|_| ())
 }
 
 #[cfg(test)]
@@ -138,6 +193,46 @@ mod tests {
         files.add(&path, |out| out.write_all(b"new"))?;
         files.commit()?;
         assert_eq!(std::fs::read_to_string(&path)?, "new");
+        Ok(())
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_put_in_its_place_takes_the_others_back() -> io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let [new, old, last] = ["new.txt", "old.txt", "last.txt"].map(|n| folder.path().join(n));
+        fs::write(&old, "old")?;
+        let mut files = OutputFiles::default();
+        for path in [&new, &old, &last] {
+            files.add(path, |out| out.write_all(b"new")).map_err(io::Error::other)?;
+        }
+        // A folder has come to be where the last is to go.
+        fs::create_dir(&last)?;
+        let failed = files.commit().expect_err("no file replaces a folder");
+        assert!(failed.to_string().contains("last.txt: "), "{failed}");
+        assert_eq!(fs::read_to_string(&old)?, "old");
+        let mut names: Vec<_> = fs::read_dir(folder.path())?
+            .map(|e| e.map(|e| e.file_name()))
+            .collect::<Result<_, _>>()?;
+        names.sort();
+        assert_eq!(names, ["last.txt", "old.txt"]);
+        Ok(())
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_made_is_told_by_its_own_name() -> io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("none").join("a.txt");
+        let failed = OutputFiles::default().add(&path, |out| out.write_all(b"new"));
+        let message = failed.expect_err("there is no folder").to_string();
+        assert!(!message.contains(".beamwright-"), "{message}");
+        Ok(())
+    }
+
+    #[test]
+    fn a_name_that_is_too_long_is_told_before_anything_is_written() -> io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        assert!(check_target(&folder.path().join("a".repeat(200))).is_ok());
+        assert!(check_target(&folder.path().join("a".repeat(300))).is_err());
         Ok(())
     }
 }

@@ -39,6 +39,31 @@ fn input_that_cannot_be_used_ends_with_1() {
 }
 
 #[test]
+fn a_catalogue_that_cannot_be_read_is_named_with_the_line() {
+    let folder = folder_with_bar();
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("a file");
+    };
+    write("own1.csv", "# shape: round\nname,d\nA,10\n");
+    write("own2.csv", "# shape: round\nname,d\nB,20\nC,x\n");
+    write("own3.json", "{\n\"profiles\": [}");
+    write("empty.csv", "# shape: round\nname,d\n");
+    for (bad, fault) in [
+        ("own2.csv", "line 4: d must be a number, but is \"x\""),
+        ("own3.json", "line 2: malformed JSON: "),
+        ("empty.csv", "the catalogue has no profiles"),
+        ("none.csv", "No such file or directory"),
+    ] {
+        for command in [&["profiles"][..], &["reconstruct", "bar.obj", "-o", "a.step"]] {
+            let catalogues = ["--catalogue", "own1.csv", "--catalogue", bad];
+            let message = run(folder.path(), &[command, &catalogues].concat()).failed(1);
+            let wanted = format!("cannot read {bad}: {fault}");
+            assert!(message.starts_with(&wanted), "{command:?}: {message}");
+        }
+    }
+}
+
+#[test]
 fn wrong_usage_ends_with_2_and_says_what_is_wanted() {
     let folder = folder_with_bar();
     for (words, wanted) in [

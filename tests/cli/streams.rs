@@ -141,9 +141,10 @@ fn a_reader_that_goes_away_is_no_failure() {
 #[test]
 fn results_that_cannot_be_printed_are_a_failure() {
     let folder = folder_with_bar();
-    let full = std::fs::File::options().write(true).open("/dev/full").expect("/dev/full");
-    let output = command(folder.path()).args(["inspect", "bar.obj"]).stdout(full).output();
-    let ran = Ran::from(output.expect("the program starts"));
-    assert_eq!(ran.code, Some(1));
-    assert!(ran.stderr.starts_with("error: cannot write to standard output: "), "{}", ran.stderr);
+    for words in [&["inspect", "bar.obj"][..], &["--help"], &["--version"], &["man"]] {
+        let full = std::fs::File::options().write(true).open("/dev/full").expect("/dev/full");
+        let output = command(folder.path()).args(words).stdout(full).output();
+        let message = Ran::from(output.expect("the program starts")).failed(1);
+        assert!(message.starts_with("cannot write to standard output: "), "{words:?}: {message}");
+    }
 }

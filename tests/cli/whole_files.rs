@@ -103,6 +103,35 @@ fn a_target_that_cannot_be_written_is_told_before_the_work() {
     assert_eq!(names(folder.path()), ["bar.obj", "taken.step"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_name_too_long_for_one_output_leaves_none() {
+    let folder = folder_with_bar();
+    let long = "a".repeat(250);
+    std::fs::rename(folder.path().join("bar.obj"), folder.path().join(format!("{long}.obj")))
+        .expect("another name");
+    let (mesh, step) = (format!("{long}.obj"), format!("{long}.step"));
+    for outputs in [&["-o", &step][..], &["--out-dir", "out", "--report", ".html"]] {
+        let ran = run(folder.path(), &[&["reconstruct", &mesh], outputs].concat());
+        assert_eq!(ran.code, Some(1), "{ran:?}");
+        assert!(ran.stderr.contains(".skeleton.json: File name too long"), "{ran:?}");
+        assert!(ran.stdout.is_empty(), "told before the work: {ran:?}");
+    }
+    assert_eq!(names(folder.path()), [&mesh, "out"]);
+    assert!(names(&folder.path().join("out")).is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_may_not_be_written_is_told_by_the_wanted_name() {
+    let folder = folder_with_bar();
+    // Not even root may create a file there.
+    let message = run(folder.path(), &["skeleton", "bar.obj", "-o", "/sys/out.json"]).failed(1);
+    let cause = message.strip_prefix("cannot write /sys/out.json: ");
+    let cause = cause.unwrap_or_else(|| panic!("{message}"));
+    assert!(!cause.contains("/sys") && !cause.contains("beamwright"), "{message}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_folder_that_takes_no_files_is_told() {
@@ -130,6 +159,19 @@ fn an_input_is_never_an_output() {
         assert!(message.contains("is an input file"), "{words:?}: {message}");
     }
     assert_eq!(text(&folder.path().join("bar.obj")), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_input_is_never_an_output_by_a_second_name() {
+    let folder = folder_with_bar();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::hard_link(path("bar.obj"), path("hard.obj")).expect("a second name");
+    std::os::unix::fs::symlink("bar.obj", path("soft.obj")).expect("a link");
+    for output in ["hard.obj", "soft.obj"] {
+        let message = run(folder.path(), &["skeleton", "bar.obj", "-o", output]).failed(2);
+        assert_eq!(message, format!("the output {output} is an input file"));
+    }
 }
 
 #[test]

@@ -9,20 +9,25 @@ use crate::section::error::SectionError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CatalogueError {
-    /// The file cannot be opened or read.
+    /// A file is no catalogue, or cannot be read.
     #[error("cannot read {}: {fault}", path.display())]
-    Unreadable {
+    File {
         /// The file.
         path: PathBuf,
+        /// What is wrong with it.
+        fault: Box<Self>,
+    },
+
+    /// The file cannot be opened or read.
+    #[error("{fault}")]
+    Unreadable {
         /// What the system says.
         fault: String,
     },
 
     /// The file is larger than any catalogue.
-    #[error("{} has {bytes} bytes; a catalogue has at most 16 MiB", path.display())]
+    #[error("it has {bytes} bytes; a catalogue has at most 16 MiB")]
     TooLarge {
-        /// The file.
-        path: PathBuf,
         /// Its size.
         bytes: u64,
     },

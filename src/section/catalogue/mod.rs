@@ -77,15 +77,18 @@ impl Catalogue {
     ///
     /// # Errors
     /// If the file cannot be read, is not in the documented format, or describes a profile that
-    /// cannot be; the message names the line.
+    /// cannot be; the message names the file and the line.
     pub fn read(path: &Path) -> Result<Self, CatalogueError> {
-        let failed = |fault: std::io::Error| CatalogueError::Unreadable {
-            path: path.to_owned(),
-            fault: fault.to_string(),
-        };
+        Self::of_file(path)
+            .map_err(|fault| CatalogueError::File { path: path.to_owned(), fault: Box::new(fault) })
+    }
+
+    fn of_file(path: &Path) -> Result<Self, CatalogueError> {
+        let failed =
+            |fault: std::io::Error| CatalogueError::Unreadable { fault: fault.to_string() };
         let size = std::fs::metadata(path).map_err(failed)?.len();
         if size > LARGEST_FILE {
-            return Err(CatalogueError::TooLarge { path: path.to_owned(), bytes: size });
+            return Err(CatalogueError::TooLarge { bytes: size });
         }
         let bytes = std::fs::read(path).map_err(failed)?;
         let text = utf8(&bytes)?;
@@ -99,7 +102,8 @@ impl Catalogue {
     /// * `family`: name of the family if the file does not give one.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// If the text is not in the documented format, or describes a profile that cannot be; the
+    /// message names the line.
     pub fn parse_csv(text: &str, family: &str) -> Result<Self, CatalogueError> {
         Self::of_rows(csv::rows(text, family)?)
     }
@@ -109,7 +113,8 @@ impl Catalogue {
     /// * `family`: name of the family if the file does not give one.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// If the text is not in the documented format, or describes a profile that cannot be; the
+    /// message names the line.
     pub fn parse_json(text: &str, family: &str) -> Result<Self, CatalogueError> {
         Self::of_rows(json::rows(text, family)?)
     }
