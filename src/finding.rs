@@ -6,6 +6,8 @@ use nalgebra::Point3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum FindingKind {
+    /// A part of a size that tells of another unit of length.
+    Unit,
     /// The mesh was mended.
     MeshMended,
     /// A hollow inside the material was left out.
@@ -48,6 +50,7 @@ impl FindingKind {
     /// The kind in kebab case, for machines.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Unit => "unit",
             Self::MeshMended => "mesh-mended",
             Self::Cavity => "cavity",
             Self::FloatingIsland => "floating-island",

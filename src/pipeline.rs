@@ -22,7 +22,7 @@ use crate::section::catalogue::CatalogueError;
 use crate::section::matching::MatchError;
 use crate::skeleton::params::OutOfRange;
 use crate::skeleton::{self, Marched, Skeleton, SkeletonError, SkeletonParams};
-use crate::wording::counted;
+use crate::wording::{counted, figures};
 
 /// Everything that steers a run.
 #[derive(Clone, Debug)]
@@ -207,10 +207,39 @@ fn breaches_first(findings: &mut [Finding]) {
     findings.sort_by_key(|f| (!f.breach, f.kind));
 }
 
+/// A part no larger than this, mm, is in doubt: a frame of 3 m in a file in metres is 3 mm across, a
+/// coupon of printed lattice 8 mm.
+const SMALL_PART: f64 = 5.0;
+
+/// A part larger than this, mm, is in doubt: a bracket of 150 mm read in metres is 150 m across, the
+/// truss of a hall 60 m.
+const LARGE_PART: f64 = 1e5;
+
+/// Words for a part whose size tells that its file may be in another unit of length.
+///
+/// * `extent`: diagonal of its bounding box, mm.
+pub fn unit_in_doubt(extent: f64) -> Option<String> {
+    if extent < SMALL_PART {
+        let across = figures(extent, 1);
+        Some(format!("the part is {across} mm across: is the file in metres? --unit m"))
+    } else if extent > LARGE_PART {
+        let across = figures(extent * 1e-3, 0);
+        Some(format!(
+            "the part is {across} m across: is the file in millimetres? --unit mm; if it is in \
+             micrometres, scale it"
+        ))
+    } else {
+        None
+    }
+}
+
 /// What was mended and left out, in words.
 pub fn mesh_findings(surface: &Surface) -> Vec<Finding> {
     let report = &surface.report;
     let mut findings = Vec::new();
+    if let Some(text) = unit_in_doubt(report.extent) {
+        findings.push(Finding::note(FindingKind::Unit, None, text));
+    }
     let mended = [
         (report.merged_near_points, "near point merged", "near points merged"),
         (

@@ -2,10 +2,14 @@
 
 use std::path::Path;
 
+use beamwright::frame::Loft;
+use beamwright::frame::shape::ShapeStation;
 use beamwright::joint::JointKind;
+use beamwright::output::assembly::{assembly, mark};
 use beamwright::output::cut_list::{CutList, CutListParams, Stock};
 use beamwright::output::material::Material;
 use beamwright::pipeline::{self, Outcome, Settings};
+use beamwright::section::outline::Outline;
 
 type Outcomes = Result<(), Box<dyn std::error::Error>>;
 
@@ -19,7 +23,10 @@ fn list(outcome: &Outcome, stock: Option<Stock>) -> CutList {
         material: Material { name: "=steel".into(), ..Material::default() },
         stock,
     };
-    CutList::new(&outcome.frame, &outcome.joints, &params)
+    let volumes = assembly("list", &outcome.frame, &outcome.joints, params.material.density)
+        .expect("solids")
+        .volumes;
+    CutList::new(&outcome.frame, &outcome.joints, &volumes, &params)
 }
 
 #[test]
@@ -31,6 +38,36 @@ fn one_bar_is_one_piece_of_its_length_and_mass() -> Outcomes {
     // π 4² · 80 mm³ of steel.
     assert!((bar.mass_kg / (std::f64::consts::PI * 16.0 * 80.0 * 7850e-9) - 1.0).abs() < 0.01);
     assert!((bar.unit_surface_m2 / (std::f64::consts::TAU * 4.0 * 80.0 * 1e-6) - 1.0).abs() < 0.01);
+    Ok(())
+}
+
+#[test]
+fn masses_of_tapered_round_members_are_those_of_their_cones() -> Outcomes {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/quadpod.obj");
+    for loft in [Loft::Taper, Loft::Multi] {
+        let mut settings = Settings { joints: JointKind::None, ..Settings::default() };
+        settings.profiles.loft = loft;
+        settings.profiles.choice = "round".parse()?;
+        let outcome = pipeline::run(&path, &settings, &mut ())?;
+        let list = list(&outcome, None);
+        for piece in &list.pieces {
+            let named = |i: &usize| piece.marks[0] == mark(*i);
+            let i = (0..outcome.frame.beams.len()).find(named).expect("a beam");
+            let beam = &outcome.frame.beams[i];
+            let radius = |s: &ShapeStation| match &s.region.outer {
+                Outline::Circle { radius, .. } => *radius,
+                other => panic!("{other:?}"),
+            };
+            let cones = beam.shape.stations.windows(2).map(|w| {
+                let [a, b] = [radius(&w[0]), radius(&w[1])];
+                (w[1].at - w[0].at) * (a * a + a * b + b * b)
+            });
+            let volume = std::f64::consts::FRAC_PI_3 * beam.cut_length * cones.sum::<f64>();
+            let mass = volume * 7850e-9;
+            // To the last digit of the list.
+            assert!((piece.unit_mass_kg - mass).abs() < 6e-7, "{loft:?} {}: {mass}", piece.piece);
+        }
+    }
     Ok(())
 }
 

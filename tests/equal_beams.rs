@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use beamwright::frame::{FrameParams, Loft, ProfileParams, match_profiles, normalize, sections};
 use beamwright::joint::{JointKind, Joints, joints};
-use beamwright::output::assembly::{assembly, mark};
+use beamwright::output::assembly::{Assembly, assembly, mark};
 use beamwright::output::cut_list::{CutList, CutListParams};
 use beamwright::output::step::{self, Body, Part};
 use beamwright::section::Catalogue;
@@ -112,8 +112,9 @@ fn share_a_product(a: &Part, b: &Part) -> bool {
 fn assert_equal(case: &Symmetric, joint: JointKind, choice: &str, loft: Loft) {
     let Symmetric { name, truth, equal } = case;
     let built = built(truth, 0.06, joint, choice, loft);
-    let list = CutList::new(&built.frame, &built.joints, &CutListParams::default());
-    let document = assembly(name, &built.frame, &built.joints, 7850.0).expect("solids").document;
+    let Assembly { document, volumes, .. } =
+        assembly(name, &built.frame, &built.joints, 7850.0).expect("solids");
+    let list = CutList::new(&built.frame, &built.joints, &volumes, &CutListParams::default());
     let parts = &document.groups[0].parts;
     let says = format!("{name}, {joint:?}, {choice}, {loft:?}");
     for equal in equal {
@@ -188,7 +189,10 @@ fn legs_drawn_a_little_longer_are_another_piece() {
         for loft in [Loft::Constant, Loft::Taper] {
             assert_equal(&uneven, JointKind::None, choice, loft);
             let built = built(&uneven.truth, 0.06, JointKind::None, choice, loft);
-            let list = CutList::new(&built.frame, &built.joints, &CutListParams::default());
+            let volumes =
+                assembly("legs", &built.frame, &built.joints, 7850.0).expect("solids").volumes;
+            let list =
+                CutList::new(&built.frame, &built.joints, &volumes, &CutListParams::default());
             let [short, long] = [4, 5].map(|strut| {
                 let mark = mark(built.beam_of(&uneven.truth, strut));
                 let piece = list.pieces.iter().find(|p| p.marks.contains(&mark));

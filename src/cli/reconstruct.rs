@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use beamwright::output::assembly::{Assembly, assembly};
+use beamwright::mesh::Surface;
+use beamwright::output::assembly::{Assembly, AssemblyError, assembly};
 use beamwright::output::cut_list::CutList;
 use beamwright::output::mesh_export::{PartMesh, write_parts};
 use beamwright::output::sections::SectionFormat;
@@ -87,14 +88,15 @@ fn reconstruct(
     let name = show::name_of(&args.input.input);
     let stem = args.input.input.file_stem().unwrap_or_default().to_string_lossy();
     let density = args.shop.density;
-    let mut built =
-        assembly(&stem, &outcome.frame, &outcome.joints, density).map_err(Failure::input)?;
+    let mut built = assembly(&stem, &outcome.frame, &outcome.joints, density)
+        .map_err(|fault| not_built(&args.input.input, &outcome.surface, &fault))?;
     if !args.output.no_non_design {
         built = built.with_non_design(&outcome.surface, density);
     }
-    let Assembly { document, beside, findings } = built;
+    let Assembly { document, volumes, beside, findings } = built;
     outcome.findings.extend(findings);
-    let list = CutList::new(&outcome.frame, &outcome.joints, &args.shop.cut_list_params());
+    let params = args.shop.cut_list_params();
+    let list = CutList::new(&outcome.frame, &outcome.joints, &volumes, &params);
     outcome.findings.extend(list.findings());
     let summary = Summary::new(name, &outcome.surface, &outcome.findings)
         .with_skeleton(&outcome.surface, &outcome.skeleton)
@@ -108,6 +110,13 @@ fn reconstruct(
     }
     progress.finish();
     show::summary(&summary, &args.result, global)
+}
+
+/// Why the beams of a mesh are no solids, and what to do where its size tells.
+fn not_built(mesh: &Path, surface: &Surface, fault: &AssemblyError) -> Failure {
+    let advice = pipeline::unit_in_doubt(surface.report.extent);
+    let advice = advice.map_or_else(String::new, |advice| format!("; {advice}"));
+    Failure::input(format!("cannot build {}: {fault}{advice}", mesh.display()))
 }
 
 /// Where the results go.

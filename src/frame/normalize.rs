@@ -50,7 +50,7 @@ pub fn normalize(
     }
     deviation::report(&making, params, &mut findings);
     deviation::report_outside(&making, &surface.tree, &mut findings);
-    let beams = making.pieces.iter().map(|p| beam(&making, p)).collect();
+    let beams = making.pieces.iter().map(|p| beam(&making, p, surface)).collect();
     Normalized { frame: Frame { nodes: making.nodes, beams }, findings }
 }
 
@@ -82,7 +82,7 @@ fn settle_nodes(making: &mut Making<'_>, surface: &Surface) {
     }
 }
 
-fn beam(making: &Making<'_>, piece: &Piece) -> Beam {
+fn beam(making: &Making<'_>, piece: &Piece, surface: &Surface) -> Beam {
     let [a, b] = making.axis(piece);
     let length = (b - a).norm();
     let found = making.own_sections_of(piece);
@@ -90,7 +90,7 @@ fn beam(making: &Making<'_>, piece: &Piece) -> Beam {
     let (.., angle) = BeamSection::new(&found, a, length, &free).mean.principal();
     let axes = free.rolled(angle);
     let section = BeamSection::new(&found, a, length, &axes);
-    let assumed_area = std::f64::consts::PI * making.branch_radius(piece).powi(2);
+    let assumed_area = std::f64::consts::PI * assumed_radius(making, piece, surface).powi(2);
     Beam {
         ends: piece.ends.map(NodeId::new),
         passes: piece.passes.iter().map(passage).collect(),
@@ -103,6 +103,13 @@ fn beam(making: &Making<'_>, piece: &Piece) -> Beam {
         assumed_area,
         shape: BeamShape::unmatched(assumed_area),
     }
+}
+
+/// Radius of a beam where no section says it, mm: that of its branch, or the mean one of the part
+/// for a branch that has none (its surface is torn along the whole of it).
+fn assumed_radius(making: &Making<'_>, piece: &Piece, surface: &Surface) -> f64 {
+    let own = making.branch_radius(piece);
+    if own > 0.0 { own } else { surface.mean_radius().max(0.0) }
 }
 
 fn passage(&(node, branch): &(usize, usize)) -> Passage {

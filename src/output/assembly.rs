@@ -16,6 +16,7 @@ use crate::joint::{Alike, Ball, CutBeam, EndCut, Joints, SAME_PIECE};
 use crate::mesh::Surface;
 use crate::section::matching::MatchErrors;
 use crate::section::outline::{Outline, Segment};
+use crate::wording::figures;
 
 /// Colours given to profiles in turn: distinct for the common kinds of colour blindness
 /// (Okabe and Ito, *Color Universal Design*, 2008), without black.
@@ -37,10 +38,30 @@ const BALL_COLOUR: [u8; 3] = [160, 160, 160];
 pub struct Assembly {
     /// The document.
     pub document: Document,
+    /// Volume of each kind of piece (see [`Alike`]) as it is built, mm³; 0 of one that is not.
+    pub volumes: Vec<f64>,
     /// Non-design parts that go into a mesh file beside the STEP file.
     pub beside: Vec<PartMesh>,
-    /// Beams that were built as simpler solids, non-design parts that are none.
+    /// Beams that were built as simpler solids or not at all, non-design parts that are none.
     pub findings: Vec<Finding>,
+}
+
+/// Why there is no assembly.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AssemblyError {
+    /// No beam is a solid, not even as a round bar.
+    #[error("no beam can be built as a solid; {beam}: {fault}")]
+    NoBeam {
+        /// Mark and name of the first.
+        beam: String,
+        /// What is wrong with it.
+        fault: step::BodyError,
+    },
+
+    /// The ball of a joint is no solid.
+    #[error("a ball of a joint is no solid: {0}")]
+    Ball(#[from] step::BodyError),
 }
 
 impl Assembly {
@@ -60,15 +81,16 @@ impl Assembly {
 /// * `density`: kg/m³, for the masses.
 ///
 /// # Errors
-/// A beam that is no solid even as a round bar: one without length or area.
+/// No beam is a solid, not even as a round bar: all are without length or area, or too small for a
+/// STEP file.
 pub fn assembly(
     name: &str,
     frame: &Frame,
     joints: &Joints,
     density: f64,
-) -> Result<Assembly, step::BodyError> {
+) -> Result<Assembly, AssemblyError> {
     let mut profiles: Vec<String> = Vec::new();
-    let mut models: Vec<Model> = Vec::new();
+    let mut models: Vec<Result<Model, step::BodyError>> = Vec::new();
     let mut parts = Vec::with_capacity(frame.beams.len());
     let mut findings = Vec::new();
     for (i, &Alike { kind, motion, .. }) in joints.alike.iter().enumerate() {
@@ -80,22 +102,38 @@ pub fn assembly(
                 profiles.len() - 1
             });
             let colour = COLOURS[colour % COLOURS.len()];
-            models.push(Model::new(beam, &joints.beams[i], frame, colour, density)?);
+            models.push(Model::new(beam, &joints.beams[i], frame, colour, density));
         }
-        let model = &mut models[kind];
-        model.count(beam);
-        findings.extend(model.simpler.map(|how| simpler_solid(i, frame, beam, how)));
-        let name = format!("{} {}", mark(i), beam.shape.name());
-        parts.push((kind, name, placement(beam, frame) * motion));
+        match &mut models[kind] {
+            Ok(model) => {
+                model.count(beam);
+                findings.extend(model.simpler.map(|how| simpler_solid(i, frame, beam, how)));
+                parts.push((kind, shown(i, beam), placement(beam, frame) * motion));
+            }
+            Err(fault) => findings.push(left_out(i, frame, beam, fault)),
+        }
     }
-    let parts = parts.into_iter().map(|(kind, name, at)| models[kind].placed(name, at)).collect();
+    if let (true, Some(Err(fault))) = (parts.is_empty(), models.first()) {
+        let (beam, fault) = (shown(0, &frame.beams[0]), fault.clone());
+        return Err(AssemblyError::NoBeam { beam, fault });
+    }
+    let parts = parts.into_iter().filter_map(|(kind, name, at)| {
+        models[kind].as_ref().ok().map(|model| model.placed(name, at))
+    });
+    let parts = parts.collect();
+    let volumes = models.iter().map(|m| m.as_ref().map_or(0.0, |m| m.volume)).collect();
     let group = |name: &str, parts| Group { name: name.into(), parts, groups: Vec::new() };
     let mut groups = vec![group("Beams", parts)];
     if !joints.balls.is_empty() {
         groups.push(group("Joints", balls(frame, &joints.balls, density)?));
     }
     let document = Document { name: name.to_owned(), groups };
-    Ok(Assembly { document, beside: Vec::new(), findings })
+    Ok(Assembly { document, volumes, beside: Vec::new(), findings })
+}
+
+/// A beam by its mark and name.
+fn shown(index: usize, beam: &Beam) -> String {
+    format!("{} {}", mark(index), beam.shape.name())
 }
 
 /// A piece that is placed once for each beam that is alike.
@@ -103,6 +141,7 @@ struct Model {
     product: String,
     colour: [u8; 3],
     body: Body,
+    volume: f64,
     /// How it was built where it could not be as wanted.
     simpler: Option<&'static str>,
     /// Facts that all its beams share.
@@ -122,11 +161,13 @@ impl Model {
     ) -> Result<Self, step::BodyError> {
         let (body, simpler) = sound_body(beam, cut, &placement(beam, frame))?;
         let name = beam.shape.name();
-        let mass = body.volume()? * density * 1e-9;
+        let volume = body.volume()?;
+        let mass = volume * density * 1e-9;
         Ok(Self {
-            product: format!("{name} L={:.1}", cut.length),
+            product: format!("{name} L={}", figures(cut.length, 1)),
             colour,
             body,
+            volume,
             simpler,
             properties: vec![
                 Property::text("profile", name),
@@ -198,6 +239,13 @@ fn simpler_solid(index: usize, frame: &Frame, beam: &Beam, how: &str) -> Finding
     Finding::note(FindingKind::SimplerSolid, Some(nalgebra::center(&a, &b)), text)
 }
 
+/// A beam that is no solid at all is not in the file: a promise that does not hold.
+fn left_out(index: usize, frame: &Frame, beam: &Beam, fault: &step::BodyError) -> Finding {
+    let [a, b] = frame.axis(beam);
+    let text = format!("{} is no solid and left out of the STEP file: {fault}", shown(index, beam));
+    Finding::breach(FindingKind::SimplerSolid, Some(nalgebra::center(&a, &b)), text)
+}
+
 /// The balls; those that are nearly equal are made as the first of them is.
 fn balls(frame: &Frame, balls: &[Ball], density: f64) -> Result<Vec<Part>, step::BodyError> {
     let mut radii: Vec<f64> = Vec::new();
@@ -212,7 +260,7 @@ fn balls(frame: &Frame, balls: &[Ball], density: f64) -> Result<Vec<Part>, step:
             });
             let body = Body::Sphere { radius };
             let mass = body.volume()? * density * 1e-9;
-            let size = format!("Ball D{:.1}", 2.0 * radius);
+            let size = format!("Ball D{}", figures(2.0 * radius, 1));
             Ok(Part {
                 name: format!("J{:03} {size}", i + 1),
                 product: size,

@@ -10,7 +10,7 @@ use crate::frame::{self, BeamVolumes, Frame};
 use crate::mesh::{InterfaceKind, InterfaceSection, Label, MeshReport, Surface};
 use crate::skeleton::verify::Homotopy;
 use crate::skeleton::{PointKind, Skeleton};
-use crate::wording::counted;
+use crate::wording::{counted, figures};
 
 /// The mesh: what was read and mended.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -316,6 +316,11 @@ pub(super) fn grouped(n: usize) -> String {
     out
 }
 
+/// A volume in whole mm³, grouped; a smaller one with its digits.
+fn volume(x: f64) -> String {
+    if x.abs() < 10.0 { figures(x, 0) } else { grouped(x.round() as usize) }
+}
+
 impl Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut row = |name: &str, text: &str| {
@@ -357,12 +362,12 @@ impl Display for Summary {
 /// One line on the mesh, in words.
 pub(super) fn mesh_line(mesh: &MeshSummary) -> String {
     format!(
-        "{} triangles, {}, genus {}, {:.1} mm across, {} mm³",
+        "{} triangles, {}, genus {}, {} mm across, {} mm³",
         grouped(mesh.triangles),
         counted(mesh.bodies, "body", "bodies"),
         mesh.genus,
-        mesh.diagonal,
-        grouped(mesh.volume.round() as usize)
+        figures(mesh.diagonal, 1),
+        volume(mesh.volume)
     )
 }
 
@@ -392,21 +397,21 @@ pub(super) fn label_line(labels: &LabelSummary) -> String {
 fn interface_line(section: &InterfaceSummary) -> String {
     let [x, y, z] = section.centroid;
     format!(
-        "set {}: {} of {:.2} mm² at ({x:.2}, {y:.2}, {z:.2})",
+        "set {}: {} of {} mm² at ({x:.2}, {y:.2}, {z:.2})",
         section.set + 1,
         section.kind,
-        section.area
+        figures(section.area, 2)
     )
 }
 
 /// One line on the skeleton, in words.
 pub(super) fn skeleton_line(s: &SkeletonSummary) -> String {
     let mut line = format!(
-        "{}, {}, {} points, {:.1} mm; cycles {} of {}",
+        "{}, {}, {} points, {} mm; cycles {} of {}",
         counted(s.branches, "branch", "branches"),
         counted(s.junctions, "junction", "junctions"),
         s.points,
-        s.length,
+        figures(s.length, 1),
         s.cycles,
         s.expected_cycles
     );
@@ -419,7 +424,7 @@ pub(super) fn skeleton_line(s: &SkeletonSummary) -> String {
 /// One line on the frame, in words.
 pub(super) fn frame_line(frame: &FrameSummary) -> String {
     let beams = counted(frame.beams, "beam", "beams");
-    format!("{beams}, {} nodes, {:.1} mm", frame.nodes, frame.length)
+    format!("{beams}, {} nodes, {} mm", frame.nodes, figures(frame.length, 1))
 }
 
 /// One line on the volume of the beams, in words.
@@ -428,8 +433,8 @@ pub(super) fn volume_line(frame: &FrameSummary) -> String {
     format!(
         "beams {} mm³ without overlap at joints, for {} mm³ of design \
          ({:+.1}\u{a0}%); {:.1}\u{a0}% stick out",
-        grouped(frame.volume_together.round() as usize),
-        grouped(frame.design_volume.round() as usize),
+        volume(frame.volume_together),
+        volume(frame.design_volume),
         part(frame.volume_together) - 100.0,
         part(frame.volume_outside)
     )

@@ -8,7 +8,7 @@ use tempfile::{TempDir, tempdir};
 
 use crate::common::frame::bar;
 use crate::common::program::Ran;
-use crate::names;
+use crate::{names, sample};
 
 /// Address space the program gets, KiB: that of the program itself and a little more.
 const MEMORY: u32 = 400_000;
@@ -232,4 +232,19 @@ fn a_corner_far_out_in_space_takes_no_memory() {
             ran.failed(1);
         }
     }
+}
+
+#[test]
+fn a_mesh_whose_points_are_mixed_up_still_gives_beams_and_says_what_is_wrong() {
+    let text = std::fs::read_to_string(sample("y_form")).expect("a sample");
+    let mut lines: Vec<&str> = text.lines().collect();
+    let last = lines.iter().rposition(|line| line.starts_with("v ")).expect("points");
+    // One point stands last: all after it are taken for their neighbours, and no section is found.
+    lines[340..=last].rotate_left(1);
+    let folder = folder_with("mixed.obj", lines.join("\n"));
+    let ran = reconstruct(folder.path(), "mixed.obj".as_ref());
+    assert!(ran.stdout.contains("BREACH"), "{ran:?}");
+    ran.succeeded();
+    let list = std::fs::read_to_string(folder.path().join("out.csv")).expect("a cut list");
+    assert!(list.contains("P01,B001,1,Round "), "{list}");
 }

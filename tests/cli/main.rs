@@ -7,6 +7,7 @@ mod ending;
 mod hostile;
 mod non_design;
 mod streams;
+mod unit;
 mod whole_files;
 
 use std::path::{Path, PathBuf};

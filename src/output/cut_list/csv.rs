@@ -4,6 +4,7 @@
 use std::io::{self, Write};
 
 use super::CutList;
+use crate::wording::figures;
 
 /// Head of the first table.
 const PIECES: [&str; COLUMNS] = [
@@ -96,18 +97,18 @@ fn totals(list: &CutList, table: &mut Table<'_>) -> io::Result<()> {
         row[2] = t.quantity.to_string();
         row[3] = text(&t.profile);
         row[5] = text(&t.standard);
-        row[7] = format!("{:.3}", t.length_mm);
-        row[18] = format!("{:.6}", t.mass_kg);
-        row[19] = format!("{:.6}", t.surface_m2);
+        row[7] = figures(t.length_mm, 3);
+        row[18] = figures(t.mass_kg, 6);
+        row[19] = figures(t.surface_m2, 6);
         table.row(row)?;
     }
     let all = list.total();
     let mut row = vec![String::new(); COLUMNS];
     row[0] = all.profile;
     row[2] = all.quantity.to_string();
-    row[7] = format!("{:.3}", all.length_mm);
-    row[18] = format!("{:.6}", all.mass_kg);
-    row[19] = format!("{:.6}", all.surface_m2);
+    row[7] = figures(all.length_mm, 3);
+    row[18] = figures(all.mass_kg, 6);
+    row[19] = figures(all.surface_m2, 6);
     table.row(row)
 }
 

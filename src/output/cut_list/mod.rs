@@ -71,8 +71,12 @@ pub struct CutList {
 
 impl CutList {
     /// Lists the beams of a frame as they are cut.
-    pub fn new(frame: &Frame, joints: &Joints, params: &CutListParams) -> Self {
-        let pieces = piece::pieces(frame, joints, params);
+    ///
+    /// * `volumes`: of the kinds of pieces, mm³, as their solids have them
+    ///   ([`Assembly::volumes`](super::assembly::Assembly::volumes)): the masses are those of the
+    ///   STEP file.
+    pub fn new(frame: &Frame, joints: &Joints, volumes: &[f64], params: &CutListParams) -> Self {
+        let pieces = piece::pieces(frame, joints, volumes, params);
         let totals = totals(&pieces);
         let nesting = params.stock.map(|stock| nesting::nest(&pieces, stock));
         Self {

@@ -7,10 +7,7 @@ use crate::frame::{Beam, Frame};
 use crate::joint::{Alike, CutBeam, Joints};
 use crate::output::assembly::mark;
 use crate::section::matching::folded_angle;
-use crate::section::properties::{Contours, signed_area};
-
-/// Points on a quarter of a curved outline of a tapered beam: its area is right to 0.1 %.
-const PER_QUARTER: usize = 16;
+use crate::wording::rounded_figures;
 
 /// A kind of piece. Lengths in mm, angles in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -63,12 +60,17 @@ pub struct Piece {
 }
 
 /// All kinds of pieces, sorted by profile and length, the longest first.
-pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> Vec<Piece> {
+pub(super) fn pieces(
+    frame: &Frame,
+    joints: &Joints,
+    volumes: &[f64],
+    params: &CutListParams,
+) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     for (i, &Alike { kind, off, .. }) in joints.alike.iter().enumerate() {
         let beam = &frame.beams[i];
         if kind == pieces.len() {
-            pieces.push(piece(beam, &joints.beams[i], params));
+            pieces.push(piece(beam, &joints.beams[i], volumes[kind], params));
         }
         let piece = &mut pieces[kind];
         piece.marks.push(mark(i));
@@ -87,20 +89,19 @@ pub(super) fn pieces(frame: &Frame, joints: &Joints, params: &CutListParams) -> 
     let digits = pieces.len().to_string().len().max(2);
     for (i, piece) in pieces.iter_mut().enumerate() {
         piece.piece = format!("P{:0digits$}", i + 1);
-        piece.mass_kg = rounded(piece.unit_mass_kg * piece.quantity as f64, 6);
+        piece.mass_kg = rounded_figures(piece.unit_mass_kg * piece.quantity as f64, 6);
     }
     pieces
 }
 
 /// A piece that is cut like a beam, before any beam is counted.
-fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
+fn piece(beam: &Beam, cut: &CutBeam, volume: f64, params: &CutListParams) -> Piece {
     let shape = &beam.shape;
     let [a, b] = [&cut.ends[0], &cut.ends[1]].map(|e| rounded(e.angle.to_degrees(), 1));
     // Either end may be called the first: the more oblique one is.
     let first = usize::from(b > a);
     let lean = folded_angle(cut.leans[first], shape.profile.shape.symmetry());
     let saddle = |end: usize| cut.ends[end].saddle.map_or(0.0, |s| rounded(2.0 * s.radius, 3));
-    let volume = mean_area(beam) * cut.mean_length;
     Piece {
         piece: String::new(),
         marks: Vec::new(),
@@ -109,8 +110,8 @@ fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
         family: shape.profile.family().to_owned(),
         standard: shape.profile.designation.as_ref().map_or(String::new(), |d| d.standard.clone()),
         material: params.material.name.clone(),
-        length_mm: rounded(cut.length, 3),
-        axis_length_mm: rounded(cut.axis_length, 3),
+        length_mm: rounded_figures(cut.length, 3),
+        axis_length_mm: rounded_figures(cut.axis_length, 3),
         angle_1_deg: a.max(b),
         angle_2_deg: a.min(b),
         saddle_1_mm: saddle(first),
@@ -118,31 +119,15 @@ fn piece(beam: &Beam, cut: &CutBeam, params: &CutListParams) -> Piece {
         twist_deg: rounded(cut.twist.to_degrees(), 1),
         lean_deg: rounded(lean.to_degrees(), 1),
         off_mm: 0.0,
-        area_mm2: rounded(shape.properties.area, 3),
-        unit_mass_kg: rounded(volume * params.material.density * 1e-9, 6),
+        area_mm2: rounded_figures(shape.properties.area, 3),
+        unit_mass_kg: rounded_figures(volume * params.material.density * 1e-9, 6),
         mass_kg: 0.0,
-        unit_surface_m2: rounded(shape.profile.outer_perimeter() * cut.skin_length * 1e-6, 6),
+        unit_surface_m2: rounded_figures(
+            shape.profile.outer_perimeter() * cut.skin_length * 1e-6,
+            6,
+        ),
         branches: Vec::new(),
     }
-}
-
-/// Mean area along a beam, mm²; a cut through the axis takes as much as it leaves.
-fn mean_area(beam: &Beam) -> f64 {
-    if beam.shape.is_constant() {
-        return beam.shape.properties.area;
-    }
-    let area = |region| {
-        let contours = Contours::of_region(region, PER_QUARTER);
-        contours.polygons().enumerate().fold(0.0, |sum, (i, polygon)| {
-            let area = signed_area(polygon).abs();
-            if i == 0 { area } else { sum - area }
-        })
-    };
-    let stations: Vec<(f64, f64)> =
-        beam.shape.stations.iter().map(|s| (s.at, area(&s.region))).collect();
-    // Simpson's rule between two stations of a cone: √A is linear.
-    let between = |a: f64, b: f64| (a + b + (a * b).sqrt()) / 3.0;
-    stations.windows(2).map(|w| (w[1].0 - w[0].0) * between(w[0].1, w[1].1)).sum()
 }
 
 fn rounded(x: f64, digits: i32) -> f64 {
