@@ -11,12 +11,12 @@ use super::shape::{BeamShape, Loft};
 use super::{Beam, Frame, lofts};
 use crate::cluster;
 use crate::finding::{Finding, FindingKind};
-use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
 use crate::section::matching::{
-    Equalized, MatchError, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
+    Equalized, MatchError, MatchMode, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
     fewest_profiles, match_profile,
 };
+use crate::section::{Profile, Shape};
 
 /// Sections and lengths that agree within this part are meant to be equal. The two halves of a
 /// mirrored voxel part agree within half of it, struts that were designed to differ do not.
@@ -121,7 +121,8 @@ fn reduce(
     let mut requirements: Vec<Requirement> = groups
         .targets
         .iter()
-        .map(|target| Requirement { target: target.clone(), length: 0.0 })
+        .zip(matched.iter())
+        .map(|(target, own)| Requirement { target: unworn(target, own, params.mode), length: 0.0 })
         .collect();
     for &group in &groups.group_of {
         requirements[group].length += groups.lengths[group];
@@ -133,6 +134,20 @@ fn reduce(
         *m = Matched::of(profile, &groups.targets[i])?;
     }
     Ok(())
+}
+
+/// The section of a beam with the corners that the mesh has worn off: a rectangle fitted to its
+/// flat sides is stiffer than the contour, and shall not be outdone by one that is not.
+fn unworn(target: &MatchTarget, own: &Matched, mode: MatchMode) -> MatchTarget {
+    let is_fitted = own.profile.designation.is_none();
+    match own.profile.shape {
+        Shape::Rectangle { .. } if is_fitted && mode == MatchMode::Stiffness => MatchTarget {
+            principal_angle: target.principal_angle,
+            contours: target.contours.clone(),
+            ..MatchTarget::of_properties(&own.properties)
+        },
+        _ => target.clone(),
+    }
 }
 
 /// The shape of a beam without sections of its own (a stub in a joint): that of the beam it goes on

@@ -50,15 +50,19 @@ pub(super) fn simplest(target: &MatchTarget, mode: MatchMode) -> Result<Matched,
     }
 }
 
-/// The family that, fitted to the area, leaves least uncovered, and how much that is.
+/// The family that, fitted to the area or the stiffness, leaves least uncovered, and how much that
+/// is.
 fn least_uncovered(
     target: &MatchTarget,
     families: &[ProfileChoice],
 ) -> Result<(f64, ProfileChoice), MatchError> {
     let mut best = (f64::INFINITY, ProfileChoice::Round);
     for family in families {
-        let profile = Profile::new(fitted(family, target, MatchMode::Area)?)?;
-        let uncovered = Matched::of(profile, target)?.uncovered.unwrap_or(f64::MAX);
+        let mut uncovered = f64::MAX;
+        for mode in [MatchMode::Area, MatchMode::Stiffness] {
+            let matched = Matched::of(Profile::new(fitted(family, target, mode)?)?, target)?;
+            uncovered = matched.uncovered.map_or(uncovered, |part| part.min(uncovered));
+        }
         let is_more_complex = best.1 == ProfileChoice::Round && *family == ProfileChoice::Ellipse;
         let gain = if is_more_complex { WORTH_A_SIZE } else { 0.0 };
         if uncovered + gain < best.0 {

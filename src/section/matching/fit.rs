@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{MatchMode, MatchTarget, ProfileChoice};
+use super::{MatchMode, MatchTarget, ProfileChoice, worn};
 use crate::section::error::SectionError;
 use crate::section::piece::bisect;
 use crate::section::profile::Shape;
@@ -34,7 +34,7 @@ pub(super) fn fitted(
         ProfileChoice::Round => Shape::Round { d: round(target) },
         ProfileChoice::Tube => tube(target),
         ProfileChoice::Ellipse => {
-            let [b, h] = sides(target, 64.0 / PI);
+            let [b, h] = sides(target.i_1, target.i_2, 64.0 / PI);
             Shape::Ellipse { b, h }
         }
         ProfileChoice::Box => walled(target, |h, b, t| Shape::Box { b, h, t, r_o: 0.0, r_i: 0.0 }),
@@ -47,8 +47,10 @@ pub(super) fn fitted(
         ProfileChoice::L => walled(target, |h, b, t| Shape::L { h, b, t, r_1: 0.0, r_2: 0.0 }),
         // Auto, freeform and catalogue are not families of sizes; their callers see to them.
         _ => {
-            let [b, h] = sides(target, 12.0);
-            Shape::Rectangle { b, h }
+            let [b, h] = rectangle(target.i_1, target.i_2);
+            let worn = target.contours.as_ref().and_then(worn::growth);
+            let [of_b, of_h] = worn.unwrap_or([1.0; 2]);
+            Shape::Rectangle { b: b * of_b, h: h * of_h }
         }
     };
     target.scaled(shape, mode)
@@ -59,10 +61,15 @@ fn round(target: &MatchTarget) -> f64 {
     (64.0 * target.mean_moment() / PI).powf(0.25)
 }
 
-/// b and h with b h³ = k I_1 and h b³ = k I_2; k is 12 for rectangles, 64/π for ellipses.
-fn sides(target: &MatchTarget, k: f64) -> [f64; 2] {
-    let ratio = (target.i_1 / target.i_2).sqrt();
-    let h = (k * target.i_1 * ratio).powf(0.25);
+/// b and h with b h³ = 12 i_y and h b³ = 12 i_z.
+pub(super) fn rectangle(i_y: f64, i_z: f64) -> [f64; 2] {
+    sides(i_y, i_z, 12.0)
+}
+
+/// b and h with b h³ = k i_y and h b³ = k i_z; k is 12 for rectangles, 64/π for ellipses.
+fn sides(i_y: f64, i_z: f64, k: f64) -> [f64; 2] {
+    let ratio = (i_y / i_z).sqrt();
+    let h = (k * i_y * ratio).powf(0.25);
     [h / ratio, h]
 }
 

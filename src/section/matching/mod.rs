@@ -8,7 +8,8 @@
 //! |-------------------------|------------------------|-------------------------------------------|
 //! | `round`                 | d                      | √(I_1 I_2)                                |
 //! | `tube`                  | d, t                   | A, √(I_1 I_2); if solid: √(I_1 I_2), t/d = 0.1 |
-//! | `rectangle`, `ellipse`  | b, h                   | I_1, I_2                                  |
+//! | `ellipse`               | b, h                   | I_1, I_2                                  |
+//! | `rectangle`             | b, h                   | the flat sides of the contour; if it has none: I_1, I_2 |
 //! | `box`, `i`, `c`, `l`    | b, h, wall             | I_1, I_2 and, if the section is thin enough, A |
 //! | `freeform`              | the outline            | A, I_1/I_2                                |
 //! | `catalogue`             | the entry              | nothing; the nearest is taken             |
@@ -32,6 +33,7 @@ mod nearest;
 mod reduce;
 mod roll;
 mod target;
+mod worn;
 
 use super::catalogue::{Catalogue, CatalogueError};
 use super::error::SectionError;
