@@ -130,6 +130,7 @@ fn scaled_target(own: &MatchTarget, there: &Moments) -> MatchTarget {
         j: own.j * grown * grown,
         principal_angle: own.principal_angle,
         contours,
+        facets: own.facets,
     }
 }
 

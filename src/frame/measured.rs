@@ -5,6 +5,7 @@ use nalgebra::{Point2, Rotation2};
 use super::beam_section::{BeamSection, BeamStation};
 use crate::section::MatchTarget;
 use crate::section::freeform::average_outline;
+use crate::section::matching::facets;
 use crate::section::properties::{Contours, SectionProperties};
 
 /// Points of an averaged contour: a round one is followed within a thousandth of its radius.
@@ -26,7 +27,18 @@ pub(super) fn measured(section: &BeamSection) -> Option<MatchTarget> {
         j: properties.j * scale * scale,
         principal_angle,
         contours: Some(Contours::solid(contour)),
+        facets: tessellated(section),
     })
+}
+
+/// Sides of the polygon that more than half of the sections of a beam are.
+fn tessellated(section: &BeamSection) -> Option<u32> {
+    let clean = section.stations.iter().filter(|s| !s.is_outlier());
+    let mut counts: Vec<Option<u32>> = clean.map(|s| facets(&s.contour)).collect();
+    counts.sort_unstable();
+    let middle = counts.get(counts.len() / 2).copied().flatten();
+    let same = counts.iter().filter(|&&count| count == middle).count();
+    middle.filter(|_| 2 * same > counts.len())
 }
 
 /// The averaged contour of the sections that belong to the beam alone; where they have none, the

@@ -136,17 +136,22 @@ fn reduce(
     Ok(())
 }
 
-/// The section of a beam with the corners that the mesh has worn off: a rectangle fitted to its
-/// flat sides is stiffer than the contour, and shall not be outdone by one that is not.
+/// The section of a beam with what the mesh has worn off: a rectangle fitted to its flat sides, or
+/// a bar to the corners of its facets, is stiffer than the contour, and shall not be outdone by a
+/// profile that is not.
 fn unworn(target: &MatchTarget, own: &Matched, mode: MatchMode) -> MatchTarget {
-    let is_fitted = own.profile.designation.is_none();
-    match own.profile.shape {
-        Shape::Rectangle { .. } if is_fitted && mode == MatchMode::Stiffness => MatchTarget {
-            principal_angle: target.principal_angle,
-            contours: target.contours.clone(),
-            ..MatchTarget::of_properties(&own.properties)
-        },
-        _ => target.clone(),
+    let is_grown = match own.profile.shape {
+        Shape::Rectangle { .. } => true,
+        Shape::Round { .. } | Shape::Ellipse { .. } => target.facets.is_some(),
+        _ => false,
+    };
+    if !is_grown || own.profile.designation.is_some() || mode != MatchMode::Stiffness {
+        return target.clone();
+    }
+    MatchTarget {
+        principal_angle: target.principal_angle,
+        contours: target.contours.clone(),
+        ..MatchTarget::of_properties(&own.properties)
     }
 }
 

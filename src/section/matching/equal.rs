@@ -62,6 +62,7 @@ fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: &[Vec<usize
             j: mean(&|beam| beam.0.j),
             principal_angle: 0.0,
             contours: None,
+            facets: None,
         };
         let middle = row(&target, length);
         let off = |&&i: &&usize| difference(&rows[i], &middle);
@@ -69,6 +70,7 @@ fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: &[Vec<usize
         let nearest = nearest.unwrap_or(group[0]);
         target.principal_angle = beams[nearest].0.principal_angle;
         target.contours.clone_from(&beams[nearest].0.contours);
+        target.facets = beams[nearest].0.facets;
         group.iter().for_each(|&i| all.group_of[i] = all.targets.len());
         all.targets.push(target);
         all.lengths.push(length);

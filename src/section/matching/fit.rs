@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{MatchMode, MatchTarget, ProfileChoice, worn};
+use super::{MatchMode, MatchTarget, ProfileChoice, facets, worn};
 use crate::section::error::SectionError;
 use crate::section::piece::bisect;
 use crate::section::profile::Shape;
@@ -30,12 +30,13 @@ pub(super) fn fitted(
     target: &MatchTarget,
     mode: MatchMode,
 ) -> Result<Shape, SectionError> {
+    let facets = target.facets.map_or(1.0, facets::growth);
     let shape = match family {
-        ProfileChoice::Round => Shape::Round { d: round(target) },
+        ProfileChoice::Round => Shape::Round { d: facets * round(target) },
         ProfileChoice::Tube => tube(target),
         ProfileChoice::Ellipse => {
             let [b, h] = sides(target.i_1, target.i_2, 64.0 / PI);
-            Shape::Ellipse { b, h }
+            Shape::Ellipse { b: facets * b, h: facets * h }
         }
         ProfileChoice::Box => walled(target, |h, b, t| Shape::Box { b, h, t, r_o: 0.0, r_i: 0.0 }),
         ProfileChoice::I => {

@@ -21,12 +21,16 @@
 //! | `area`        | then scaled to the area                | least ε_A                               |
 //! | `not-weaker`  | then scaled until none of the four is less | lightest with none of the four less |
 //!
+//! What the mesh has worn off is given back in the mode `stiffness`: corners of rectangles (`worn`),
+//! and round bars between the corners of even facets (`facets`).
+//!
 //! A catalogue profile that agrees in all four within the scatter of sections measured on meshes
 //! is taken to be the one the section was made from, in the modes `stiffness` and `area`.
 
 mod auto;
 mod choice;
 mod equal;
+mod facets;
 mod fewest;
 mod fit;
 mod nearest;
@@ -42,6 +46,7 @@ use super::profile::Profile;
 use super::properties::SectionProperties;
 pub use choice::{MatchMode, ProfileChoice, UnknownChoice};
 pub use equal::{Equalized, equalize};
+pub(crate) use facets::facets;
 pub use fewest::fewest_profiles;
 pub use reduce::{Reduction, Requirement, reduce_profiles};
 pub(crate) use target::folded_angle;

@@ -23,6 +23,8 @@ pub struct MatchTarget {
     /// The measured contour in the section plane, or the mean of several; it tells shapes apart
     /// and settles what the principal axes leave open.
     pub contours: Option<Contours>,
+    /// Sides of a contour that is an evenly tessellated circle or ellipse.
+    pub facets: Option<u32>,
 }
 
 /// Relative errors of a profile: its value over the measured one, less 1.
@@ -48,6 +50,7 @@ impl MatchTarget {
             j: properties.j,
             principal_angle: properties.principal_angle,
             contours: None,
+            facets: None,
         }
     }
 
@@ -57,7 +60,9 @@ impl MatchTarget {
     /// As [`SectionProperties::of_contours`].
     pub fn of_contours(contours: Contours) -> Result<Self, SectionError> {
         let properties = SectionProperties::of_contours(&contours)?;
-        Ok(Self { contours: Some(contours), ..Self::of_properties(&properties) })
+        let is_solid = contours.holes.is_empty();
+        let facets = if is_solid { super::facets(&contours.outer) } else { None };
+        Ok(Self { contours: Some(contours), facets, ..Self::of_properties(&properties) })
     }
 
     pub(crate) fn check(&self) -> Result<(), MatchError> {
