@@ -131,6 +131,7 @@ fn scaled_target(own: &MatchTarget, there: &Moments) -> MatchTarget {
         principal_angle: own.principal_angle,
         contours,
         facets: own.facets,
+        worn: own.worn,
     }
 }
 

@@ -63,6 +63,7 @@ fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: &[Vec<usize
             principal_angle: 0.0,
             contours: None,
             facets: None,
+            worn: None,
         };
         let middle = row(&target, length);
         let off = |&&i: &&usize| difference(&rows[i], &middle);
@@ -71,6 +72,7 @@ fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: &[Vec<usize
         target.principal_angle = beams[nearest].0.principal_angle;
         target.contours.clone_from(&beams[nearest].0.contours);
         target.facets = beams[nearest].0.facets;
+        target.worn = beams[nearest].0.worn;
         group.iter().for_each(|&i| all.group_of[i] = all.targets.len());
         all.targets.push(target);
         all.lengths.push(length);

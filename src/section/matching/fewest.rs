@@ -168,7 +168,16 @@ fn together(beams: &[&Requirement], mode: MatchMode) -> MatchTarget {
         };
         [mean(|t| t.area), i_1, i_2, mean(|t| t.j)]
     };
-    MatchTarget { area, i_1, i_2, j, principal_angle: 0.0, contours: None, facets: None }
+    MatchTarget {
+        area,
+        i_1,
+        i_2,
+        j,
+        principal_angle: 0.0,
+        contours: None,
+        facets: None,
+        worn: None,
+    }
 }
 
 /// I_1 and I_2 from which the logarithms of the beams' are least far away in all, by length.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{MatchMode, MatchTarget, ProfileChoice, facets, worn};
+use super::{MatchMode, MatchTarget, ProfileChoice, facets};
 use crate::section::error::SectionError;
 use crate::section::piece::bisect;
 use crate::section::profile::Shape;
@@ -49,8 +49,7 @@ pub(super) fn fitted(
         // Auto, freeform and catalogue are not families of sizes; their callers see to them.
         _ => {
             let [b, h] = rectangle(target.i_1, target.i_2);
-            let worn = target.contours.as_ref().and_then(worn::growth);
-            let [of_b, of_h] = worn.unwrap_or([1.0; 2]);
+            let [of_b, of_h] = target.worn.unwrap_or([1.0; 2]);
             Shape::Rectangle { b: b * of_b, h: h * of_h }
         }
     };

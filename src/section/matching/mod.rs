@@ -51,6 +51,7 @@ pub use fewest::fewest_profiles;
 pub use reduce::{Reduction, Requirement, reduce_profiles};
 pub(crate) use target::folded_angle;
 pub use target::{MatchErrors, MatchTarget};
+pub(crate) use worn::worn;
 
 /// A matched profile and how well it fits.
 #[derive(Clone, Debug, PartialEq)]

@@ -25,6 +25,9 @@ pub struct MatchTarget {
     pub contours: Option<Contours>,
     /// Sides of a contour that is an evenly tessellated circle or ellipse.
     pub facets: Option<u32>,
+    /// Distances between the flat sides of a rectangle with worn corners over the b and h that
+    /// match its moments, the smaller size first.
+    pub worn: Option<[f64; 2]>,
 }
 
 /// Relative errors of a profile: its value over the measured one, less 1.
@@ -51,6 +54,7 @@ impl MatchTarget {
             principal_angle: properties.principal_angle,
             contours: None,
             facets: None,
+            worn: None,
         }
     }
 
@@ -60,9 +64,12 @@ impl MatchTarget {
     /// As [`SectionProperties::of_contours`].
     pub fn of_contours(contours: Contours) -> Result<Self, SectionError> {
         let properties = SectionProperties::of_contours(&contours)?;
-        let is_solid = contours.holes.is_empty();
-        let facets = if is_solid { super::facets(&contours.outer) } else { None };
-        Ok(Self { contours: Some(contours), facets, ..Self::of_properties(&properties) })
+        let mut target = Self::of_properties(&properties);
+        if contours.holes.is_empty() {
+            target.facets = super::facets(&contours.outer);
+            target.worn = super::worn(&contours.outer);
+        }
+        Ok(Self { contours: Some(contours), ..target })
     }
 
     pub(crate) fn check(&self) -> Result<(), MatchError> {

@@ -36,9 +36,9 @@ const MOST_LACKING: f64 = 0.06;
 
 /// Lengths between the flat sides of a worn rectangle over the b and h that match its moments,
 /// the smaller size first; `None` if the contour is no such rectangle.
-pub(super) fn growth(contours: &Contours) -> Option<[f64; 2]> {
-    let turn = turn_of_sides(&contours.outer);
-    let upright = Contours::solid(contours.outer.clone()).moved(-turn, nalgebra::zero());
+pub(crate) fn worn(contour: &[Point2<f64>]) -> Option<[f64; 2]> {
+    let turn = turn_of_sides(contour);
+    let upright = Contours::solid(contour.to_vec()).moved(-turn, nalgebra::zero());
     let moments = upright.moments().ok()?.central();
     let (flat_b, flat_h) = (between(&upright.outer, 0)?, between(&upright.outer, 1)?);
     let [b, h] = [flat_b.distance, flat_h.distance];
@@ -117,7 +117,7 @@ mod tests {
     use crate::section::Shape;
 
     /// A rectangle with round corners, its sides parted into pieces.
-    fn worn(b: f64, h: f64, r: f64) -> Vec<Point2<f64>> {
+    fn rounded(b: f64, h: f64, r: f64) -> Vec<Point2<f64>> {
         let mut points = Vec::new();
         for (k, (x, y)) in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].iter().enumerate() {
             let centre = Point2::new(x * (0.5 * b - r), y * (0.5 * h - r));
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn worn_corners_leave_the_sides_where_they_are() {
         for (b, h, r) in [(6.0, 12.0, 1.0), (6.0, 12.0, 1.6), (10.0, 10.0, 2.5), (8.0, 40.0, 2.0)] {
-            let [found_b, found_h] = sizes(&target(worn(b, h, r)), MatchMode::Stiffness);
+            let [found_b, found_h] = sizes(&target(rounded(b, h, r)), MatchMode::Stiffness);
             assert!((found_b / b - 1.0).abs() < 0.003, "{b} x {h}, {r}: {found_b}");
             assert!((found_h / h - 1.0).abs() < 0.003, "{b} x {h}, {r}: {found_h}");
         }
@@ -152,8 +152,8 @@ mod tests {
 
     #[test]
     fn corners_that_are_a_shape_of_their_own_stay() {
-        let no_side = worn(6.0, 24.0, 3.0); // a flat bar with round edges
-        for outer in [worn(10.0, 10.0, 3.4), no_side, worn(10.0, 10.0, 5.0)] {
+        let no_side = rounded(6.0, 24.0, 3.0); // a flat bar with round edges
+        for outer in [rounded(10.0, 10.0, 3.4), no_side, rounded(10.0, 10.0, 5.0)] {
             let own = target(outer);
             let [b, h] = sizes(&own, MatchMode::Stiffness);
             assert!((b * h.powi(3) / 12.0 / own.i_1 - 1.0).abs() < 1e-9);
@@ -161,13 +161,13 @@ mod tests {
         }
         for (b, h) in [(8.0, 15.0), (8.0, 40.0), (8.0, 8.5)] {
             let ellipse = Contours::of_region(&Shape::Ellipse { b, h }.region(), 24);
-            assert_eq!(growth(&ellipse), None);
+            assert_eq!(worn(&ellipse.outer), None);
         }
     }
 
     #[test]
     fn area_and_strength_are_kept_where_they_are_asked_for() {
-        let own = target(worn(6.0, 12.0, 1.4));
+        let own = target(rounded(6.0, 12.0, 1.4));
         let [b, h] = sizes(&own, MatchMode::Area);
         assert!((b * h / own.area - 1.0).abs() < 1e-12 && (h / b - 2.0).abs() < 0.01);
         let [b, h] = sizes(&own, MatchMode::NotWeaker);
@@ -177,13 +177,13 @@ mod tests {
 
     #[test]
     fn a_contour_turned_and_run_the_other_way_grows_alike() {
-        let outer = worn(7.0, 11.0, 1.3);
-        let there = growth(&Contours::solid(outer.clone())).unwrap();
+        let outer = rounded(7.0, 11.0, 1.3);
+        let there = worn(&outer).unwrap();
         let mut back = outer;
         back.reverse();
         for angle in [0.3, 1.2, FRAC_PI_2, 2.5, PI] {
             let turned = Contours::solid(back.clone()).moved(angle, Vector2::new(5.0, 1.0));
-            let found = growth(&turned).unwrap();
+            let found = worn(&turned.outer).unwrap();
             assert!((found[0] - there[0]).abs() < 1e-9 && (found[1] - there[1]).abs() < 1e-9);
         }
     }
