@@ -83,8 +83,15 @@ impl CutBeam {
         let rises = |outline: &[Point2<f64>], end: usize| -> Vec<f64> {
             outline.iter().map(|p| rise(beam, &ends[end], p)).collect()
         };
-        let [low, high_of_low] = range(&rises(&first, 0));
-        let [low_of_high, high] = range(&rises(&last, 1)).map(|z| axis_length + z);
+        let reach = |outline: &[Point2<f64>], end: usize| {
+            let radius = round(&corners[0].region.outer);
+            match ends[end].saddle.zip(radius) {
+                Some((saddle, radius)) => saddle.range(radius),
+                None => range(&rises(outline, end)),
+            }
+        };
+        let [low, high_of_low] = reach(&first, 0);
+        let [low_of_high, high] = reach(&last, 1).map(|z| axis_length + z);
         let over = |of: &dyn Fn(&Saddle, &Region) -> f64| {
             let rise = |e: usize| ends[e].saddle.map_or(0.0, |s| of(&s, &corners[0].region));
             axis_length + rise(1) - rise(0)

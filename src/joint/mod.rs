@@ -15,9 +15,9 @@
 //! | [`JointKind::Trim`] | the same; where more meet, along the side of the thickest: saddle or plane | `trim` |
 //!
 //! Ends in an interface section lie in its plane with every joint but `none`. A round bar or tube of
-//! constant section that is trimmed against a thicker round member, which goes on to both sides,
-//! ends in a saddle: a piece of the side of the member. Everything else is cut in planes, as by a
-//! saw; on a round through member such an end enters the member just so far that its edges touch.
+//! constant section that is trimmed against a round member as thick or thicker, which goes on to both
+//! sides, ends in a saddle: a piece of the side of the member. Everything else is cut in planes, as by
+//! a saw; on a round through member such an end enters the member just so far that its edges touch.
 //!
 //! Beams that are cut [`Alike`] are one piece: one line of the cut list and one product of the STEP
 //! file.
@@ -342,12 +342,31 @@ mod tests {
         let slim = end_of(&nodes, &[(own, 3.0), (there, 5.0), (back, 5.0)]);
         assert!(slim.saddle.is_some_and(|s| s.above) && slim.normal.is_none());
         for plane in [
-            end_of(&nodes, &[(own, 4.9), (there, 5.0), (back, 5.0)]),
+            // It is thicker than the member that passes.
+            end_of(&nodes, &[(own, 5.2), (there, 5.0), (back, 5.0)]),
             // The member ends at the node, or goes on thinner.
             end_of(&nodes, &[(own, 3.0), (there, 5.0), ([1, 4], 3.0)]),
             end_of(&nodes, &[(own, 3.0), (there, 5.0), (back, 4.0)]),
         ] {
             assert_eq!(plane.saddle, None);
+        }
+    }
+
+    #[test]
+    fn bars_as_thick_as_their_member_are_cut_as_if_they_were_equal() {
+        let nodes = [[0.0, 0.0, 30.0], [0.0; 3], [40.0, 0.0, 0.0], [-40.0, 0.0, 0.0]];
+        for own in [4.9, 5.0, 5.1] {
+            let bars = [([0, 1], own), ([1, 2], 5.0), ([1, 3], 5.0)];
+            let (joints, findings) = super::joints(&frame(&nodes, &bars), &[], JointKind::Trim);
+            assert!(findings.is_empty());
+            let beam = &joints.beams[0];
+            assert_eq!(beam.ends[1].saddle.map(|s| s.radius), Some(own));
+            // Its tips reach to the axis of the member.
+            assert!((beam.length - 30.0).abs() < 1e-9, "{}", beam.length);
+            assert!((beam.axis_length - (30.0 - own)).abs() < 1e-9);
+            // Two equal cylinders at a right angle share 16/3 r³.
+            let mean = 30.0 - 8.0 / 3.0 * own / PI;
+            assert!((beam.mean_length - mean).abs() < 1e-9, "{}", beam.mean_length);
         }
     }
 

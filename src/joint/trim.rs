@@ -34,12 +34,9 @@ pub(super) fn cuts(at: &[End]) -> Vec<Option<EndCut>> {
 /// it: that of [`AS_THICK`].
 const AS_WIDE: f64 = 0.97;
 
-/// The end along the side of a round through member, for a slimmer round bar or tube.
+/// The end along the side of a round through member, for a round bar or tube that is no thicker.
 fn saddle(end: &End, through: &End) -> Option<EndCut> {
-    let (own, radius) = (end.bar?, through.bar?);
-    if own > Saddle::WIDEST * radius {
-        return None;
-    }
+    let radius = side(end.bar?, through.bar?)?;
     let normal = Unit::try_new(*end.away - *through.away * through.away.dot(&end.away), 1e-6)?;
     let setback = radius / normal.dot(&end.away);
     let [x, y, z] = [end.axes.y, end.axes.z, end.axes.x].map(|a| a.dot(&through.away));
@@ -47,6 +44,16 @@ fn saddle(end: &End, through: &End) -> Option<EndCut> {
     let saddle = Saddle { axis, radius, above: end.side == Some(1) };
     let plane = EndCut::in_plane(setback, normal, &end.away);
     Some(EndCut { normal: None, saddle: Some(saddle), ..plane })
+}
+
+/// The radius of the side that a bar is cut to; `None` where it is thicker than its member.
+///
+/// Members of equal size are measured to a percent or so. A bar that is as thick as its member within
+/// [`AS_WIDE`] is cut as if it were so exactly: as a fish mouth, which is what one cuts, and the same
+/// for all bars of that size. It is off the member by the difference of the radii.
+fn side(own: f64, member: f64) -> Option<f64> {
+    let is_equal = own.min(member) >= AS_WIDE * own.max(member);
+    if is_equal { Some(own) } else { (own < member).then_some(member) }
 }
 
 /// Part of the largest area from which on a beam is as thick: areas of equal beams are measured to

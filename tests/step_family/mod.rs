@@ -184,10 +184,10 @@ fn all(profile: Profile) -> Vec<Part> {
     parts
 }
 
-/// Bars or tubes on members little and much thicker, at right angles and slanting.
-fn saddles(name: &'static str, bore: Option<f64>) -> Case {
+/// Bars or tubes on members of some radii, at right angles and slanting.
+fn saddles(name: &'static str, bore: Option<f64>, radii: [f64; 3]) -> Case {
     let mut parts = Vec::new();
-    for radius in [22.3, 60.0, 400.0] {
+    for radius in radii {
         for tilt in [0.0_f64, 25.0, -70.0] {
             let (sin, cos) = tilt.to_radians().sin_cos();
             let saddle = |azimuth: f64, above| {
@@ -219,7 +219,15 @@ fn saddles(name: &'static str, bore: Option<f64>) -> Case {
 /// Every document of the family.
 pub fn cases() -> Vec<Case> {
     let mut cases = beams();
-    cases.extend([saddles("saddles", None), saddles("saddles_of_tubes", Some(15.0))]);
+    // Members as thick as the beam and hardly thicker; more and much thicker.
+    let (near, far) = ([20.0, 20.03, 20.6], [22.3, 60.0, 400.0]);
+    cases.extend([
+        saddles("fish_mouths", None, near),
+        saddles("fish_mouths_of_tubes", Some(15.0), near),
+        saddles("fish_mouths_of_thin_tubes", Some(19.5), near),
+        saddles("saddles", None, far),
+        saddles("saddles_of_tubes", Some(15.0), far),
+    ]);
     cases.extend([solids::solids(), solids::names(), solids::frame()]);
     cases.extend(solids::sizes());
     cases

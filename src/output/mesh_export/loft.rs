@@ -15,12 +15,13 @@ const SHORTEN: f64 = 0.9;
 /// The triangles of a loft; `None` if its stations do not fit each other or an outline is empty.
 /// Such a loft is no solid, and the STEP writer refuses it with words.
 pub(super) fn triangulate(loft: &Loft) -> Option<Triangles> {
+    let turn = turn_of_saddle(loft);
     let stations: Vec<Vec<Ring>> = loft
         .stations
         .iter()
         .map(|s| {
-            let holes = s.holes.iter().map(|h| reversed(ring(h)));
-            std::iter::once(ring(&s.outer)).chain(holes).collect()
+            let holes = s.holes.iter().map(|h| reversed(ring(h, turn)));
+            std::iter::once(ring(&s.outer, turn)).chain(holes).collect()
         })
         .collect();
     let [first, .., last] = stations.as_slice() else { return None };
@@ -35,7 +36,7 @@ pub(super) fn triangulate(loft: &Loft) -> Option<Triangles> {
         .zip(&stations)
         .map(|(s, rings)| rings.iter().flatten().map(|p| Point3::new(p.x, p.y, s.z)).collect())
         .collect();
-    let (start, end) = (cap(first)?, cap(last)?);
+    let (start, end) = (end_cap(first, &loft.start)?, end_cap(last, &loft.end)?);
     cut_ends(loft, &mut levels);
     let count = levels[0].len() as u32;
     let top = (levels.len() as u32 - 1) * count;
@@ -62,10 +63,32 @@ fn sides(offset: u32, corners: u32, per_level: u32, levels: u32, triangles: &mut
     }
 }
 
-/// Corners on an outline, counter-clockwise.
-fn ring(outline: &Outline) -> Ring {
+/// Angle of the first corner of circles: along the member of a saddle, so that the tips of a fish
+/// mouth, a quarter of a turn from there, are corners. With two saddles it is the first that counts.
+fn turn_of_saddle(loft: &Loft) -> f64 {
+    let along = [loft.start, loft.end].into_iter().find_map(|cut| match cut {
+        EndCut::Saddle(saddle) => Some(saddle.along()),
+        _ => None,
+    });
+    along.map_or(0.0, |along| along.y.atan2(along.x))
+}
+
+/// Size along the member of the outline whose triangles a saddle has.
+const FLAT: f64 = 0.05;
+
+/// Triangles over the outlines of an end. Those of a saddle run along its member, where its surface
+/// is straight: they are those of the outline made flat in that direction.
+fn end_cap(rings: &[Ring], cut: &EndCut) -> Option<Vec<[u32; 3]>> {
+    let EndCut::Saddle(saddle) = cut else { return cap(rings) };
+    let along = saddle.along();
+    let flat = |p: &Point2<f64>| p - along * ((1.0 - FLAT) * along.dot(&p.coords));
+    cap(&rings.iter().map(|ring| ring.iter().map(flat).collect()).collect::<Vec<Ring>>())
+}
+
+/// Corners on an outline, counter-clockwise; `turn`: angle of the first one of a circle.
+fn ring(outline: &Outline, turn: f64) -> Ring {
     let corners: Ring = match outline {
-        Outline::Circle { centre, radius } => round(*centre, [*radius; 2], 0.0),
+        Outline::Circle { centre, radius } => round(*centre, [*radius; 2], turn),
         Outline::Ellipse { centre, half_axes, turn } => round(*centre, *half_axes, *turn),
         Outline::Path(path) => along(path),
         Outline::Freeform(curve) => {

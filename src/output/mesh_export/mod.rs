@@ -105,9 +105,9 @@ pub(super) mod tests {
     use std::collections::HashMap;
     use std::f64::consts::PI;
 
-    use nalgebra::Vector3;
+    use nalgebra::{UnitVector3, Vector3};
 
-    use super::super::step::{Loft, Outline, Station};
+    use super::super::step::{EndCut, Loft, Outline, Saddle, Station};
     use super::*;
     use crate::output::step::Freeform;
     use nalgebra::Point2;
@@ -147,6 +147,18 @@ pub(super) mod tests {
         assert!(is_closed(&mesh.triangles));
         let found = volume(&mesh.points, &mesh.triangles);
         assert!((found / exact - 1.0).abs() < within, "{found} for {exact}");
+    }
+
+    #[test]
+    fn saddles_are_hollow_along_their_members() {
+        let axis = UnitVector3::new_normalize(Vector3::new(0.5, 0.8, 0.4));
+        for radius in [5.0, 6.0] {
+            for holes in [vec![], vec![Outline::circle(4.0)]] {
+                let end = EndCut::Saddle(Saddle { axis, radius, above: true });
+                let bar = Loft::prism(Outline::circle(5.0), holes, 15.0);
+                assert_like(Body::Loft(Loft { end, ..bar }), 0.005);
+            }
+        }
     }
 
     #[test]

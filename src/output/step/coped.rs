@@ -60,6 +60,14 @@ impl End {
         }
     }
 
+    /// Direction of a member as wide as a beam of that radius, as seen along the beam.
+    pub(super) fn fish_mouth(&self, radius: f64) -> Option<Vector2<f64>> {
+        match self {
+            Self::Saddle { saddle, .. } if saddle.is_as_wide(radius) => Some(saddle.along()),
+            _ => None,
+        }
+    }
+
     /// ∬ height over a disc about the axis.
     fn over_disc(&self, radius: f64) -> f64 {
         let flat = |height: f64| PI * radius * radius * height;
@@ -75,7 +83,7 @@ impl Coped {
     ///
     /// # Errors
     /// If the loft is no solid even with square ends, if its section is not round about the axis
-    /// and constant, or not slimmer than its members, or if its ends cross.
+    /// and constant, or thicker than its members, or if its ends cross.
     pub(super) fn new(loft: &Loft) -> Result<Self, BodyError> {
         let square = Loft { start: EndCut::Square, end: EndCut::Square, ..loft.clone() };
         square.levels()?;
@@ -86,15 +94,33 @@ impl Coped {
             return Err(no_bar);
         }
         let ends = [End::new(loft, 0)?, End::new(loft, 1)?];
-        let is_slim = |end: &End| match end {
+        let fits = |end: &End| match end {
             End::Plane(_) => true,
-            End::Saddle { saddle, .. } => radii[0] <= Saddle::WIDEST * saddle.radius,
+            End::Saddle { saddle, .. } => radii.iter().all(|r| saddle.takes(*r)),
         };
-        if !ends.iter().all(is_slim) {
-            return Err(BodyError::NoSaddle { why: "it is as thick as the member" });
+        if !ends.iter().all(fits) {
+            let why = "it is thicker than the member, or nearly as thick but not quite";
+            return Err(BodyError::NoSaddle { why });
         }
         let coped = Self { radii, ends };
         if coped.ascends() { Ok(coped) } else { Err(BodyError::CutsCross) }
+    }
+
+    /// Direction across the beam in which its edges begin: far from where they bend, which is at the
+    /// sides of members as wide as the beam.
+    pub(super) fn seam(&self) -> Vector2<f64> {
+        let along: Vec<Vector2<f64>> =
+            self.ends.iter().filter_map(|e| e.fish_mouth(self.radii[0])).collect();
+        match along[..] {
+            [] => Vector2::x(),
+            [along] => along,
+            // Halfway between the members, where that is farther from a right angle to them.
+            [a, b, ..] => {
+                let [sum, difference] = [a + b, a - b];
+                let longer = if sum.norm() >= difference.norm() { sum } else { difference };
+                longer.normalize()
+            }
+        }
     }
 
     fn ascends(&self) -> bool {
@@ -149,6 +175,19 @@ mod tests {
     }
 
     #[test]
+    fn fish_mouths_on_both_ends_are_a_closed_solid_of_known_volume() {
+        // Two equal cylinders at a right angle share 16/3 r³; a mouth leaves what is beyond.
+        let mouth = |axis, above| saddle(axis, 5.0, above);
+        for turn in [0.0, 0.2, 0.8, 1.5, 3.0_f64] {
+            let end = mouth(Vector3::new(turn.cos(), turn.sin(), 0.0), true);
+            let bar = Loft::prism(Outline::circle(5.0), vec![], 50.0);
+            let bar = Body::Loft(Loft { start: mouth(Vector3::x(), false), end, ..bar });
+            let meant = PI * 25.0 * 60.0 - 16.0 / 3.0 * 125.0;
+            assert!((bar.check().unwrap() / meant - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
     fn volume_over_a_large_member_is_that_of_a_plane_cut() {
         let bar = Loft::prism(Outline::circle(5.0), vec![], 50.0);
         let end = saddle(Vector3::x(), 1e7, true);
@@ -166,8 +205,8 @@ mod tests {
             vec![],
             50.0,
         );
-        assert!(on(6.0, tube()).is_ok());
-        for refused in [on(5.0, tube()), on(6.0, flat)] {
+        assert!(on(6.0, tube()).is_ok() && on(5.0, tube()).is_ok());
+        for refused in [on(4.9, tube()), on(5.001, tube()), on(6.0, flat)] {
             assert!(matches!(refused, Err(BodyError::NoSaddle { .. })), "{refused:?}");
         }
         let below = Loft { end: saddle(Vector3::x(), 6.0, false), ..tube() };

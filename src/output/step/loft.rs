@@ -86,8 +86,8 @@ pub enum EndCut {
         normal: Vector3<f64>,
     },
     /// Along the side of a round member, which it meets on the axis at the end station. The beam
-    /// must be a round bar or tube of constant section about its axis, its radius at most 0.9 of
-    /// that of the member, which lies at most 80° off a right angle to it.
+    /// must be a round bar or tube of constant section about its axis, its radius that of the
+    /// member or at most 0.999 of it; the member lies at most 80° off a right angle to the beam.
     Saddle(Saddle),
 }
 
