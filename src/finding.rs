@@ -20,6 +20,8 @@ pub enum FindingKind {
     IdleInterface,
     /// A part of the surface that is not beam-like.
     NotBeamLike,
+    /// A branch so long that its points are farther apart than wanted.
+    Slender,
     /// A skeletal point or segment outside the object.
     Outside,
     /// The skeleton has other cycles, components or ends than the object.
@@ -57,6 +59,7 @@ impl FindingKind {
             Self::Labels => "labels",
             Self::IdleInterface => "idle-interface",
             Self::NotBeamLike => "not-beam-like",
+            Self::Slender => "slender",
             Self::Outside => "outside",
             Self::Topology => "topology",
             Self::CentredJunctions => "centred-junctions",

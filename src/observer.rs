@@ -46,6 +46,11 @@ pub trait Observer {
     fn progress(&mut self, _stage: Stage, _done: usize, _total: usize) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
+
+    /// Asked many times within a step, where nothing is worth showing; `Break` asks the work to stop.
+    fn keep_on(&mut self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
 impl Observer for () {}

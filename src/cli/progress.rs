@@ -113,6 +113,10 @@ impl Observer for Progress {
             }
             Shown::Nothing => {}
         }
+        self.keep_on()
+    }
+
+    fn keep_on(&mut self) -> ControlFlow<()> {
         if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

@@ -105,10 +105,16 @@ fn farthest_from(making: &Making<'_>, piece: &Piece, [a, b]: [Point3<f64>; 2]) -
     own.map(|s| offset(&s)).fold(0.0, f64::max)
 }
 
+/// Most points of a piece that are weighed as corners, since the time grows with the cube of their
+/// number. A piece 500 radii long has as many; of a longer one, a coil of wire, every other is asked.
+const MOST_STOPS: usize = 512;
+
 /// The points of a piece at which it is broken, ascending.
 fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<usize> {
     let radius = making.radius(piece);
-    let stops = stops(making, piece);
+    let mut stops = stops(making, piece);
+    let stride = stops.len().div_ceil(MOST_STOPS).max(1);
+    stops = stops.into_iter().step_by(stride).collect();
     let [start, end] = making.axis(piece);
     let count = stops.len();
     if count < 2 || radius <= 0.0 {
@@ -159,7 +165,9 @@ fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<u
 
 fn stops(making: &Making<'_>, piece: &Piece) -> Vec<Stop> {
     let stations = making.beam_section(piece).stations;
-    let own = |p: u32| stations.iter().find(|s| s.point == p).map_or(0.0, |s| making.own(piece, s));
+    let radius = making.radius(piece);
+    let found = |p: u32| stations.iter().find(|s| s.point == p);
+    let own = |p: u32| found(p).map_or(0.0, |s| making.own(piece, radius, s));
     let points = piece.points.iter().enumerate();
     points
         .filter_map(|(at, &p)| {

@@ -29,7 +29,8 @@ pub(super) fn worst(making: &Making<'_>, piece: &Piece) -> Option<Worst> {
         .map(|p| making.axis(p))
         .collect();
     let stations = making.beam_section(piece).stations;
-    let is_own = |s: &&BeamStation| making.own(piece, s) >= 0.5;
+    let radius = making.radius(piece);
+    let is_own = |s: &&BeamStation| making.own(piece, radius, s) >= 0.5;
     let places = stations.iter().filter(is_own).map(|s| &s.point);
     places
         .filter_map(|&p| {

@@ -59,16 +59,15 @@ impl<'a> Making<'a> {
     }
 
     /// How far a section is the piece's own, 1 to 0. Swollen next to a junction it holds a part of
-    /// other branches; elsewhere it is only thick.
-    pub(super) fn own(&self, piece: &Piece, station: &BeamStation) -> f64 {
+    /// other branches; elsewhere it is only thick. `radius` is that of the piece.
+    pub(super) fn own(&self, piece: &Piece, radius: f64, station: &BeamStation) -> f64 {
         let Some(section) = &self.sections[station.point as usize] else { return 0.0 };
-        let own = self.radius(piece);
-        let is_swallowed = section.radius() > SWALLOWED.sqrt() * own;
+        let is_swallowed = section.radius() > SWALLOWED.sqrt() * radius;
         let near_junction = piece.ends.iter().any(|&n| {
             let node = &self.nodes[n];
             let thickest = if is_swallowed { self.thickest_at(n) } else { 0.0 };
             node.kind == NodeKind::Junction
-                && (node.position - section.centroid).norm() < JUNCTION_REACH * own.max(thickest)
+                && (node.position - section.centroid).norm() < JUNCTION_REACH * radius.max(thickest)
         });
         if near_junction { station.weight } else { 1.0 }
     }

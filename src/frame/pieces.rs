@@ -150,6 +150,7 @@ impl<'a> Making<'a> {
             return Vec::new();
         }
         let share = (b - a).norm() / found.len() as f64;
+        let radius = self.radius(piece);
         let section = self.beam_section(piece);
         section
             .stations
@@ -157,7 +158,8 @@ impl<'a> Making<'a> {
             .filter_map(|station| {
                 let found = self.sections[station.point as usize].as_ref()?;
                 // Squared: a section swollen by half has a tenth of the pull of a clean one.
-                let weight = self.own(piece, station).powi(2) * station.moments.area * share;
+                let weight =
+                    self.own(piece, radius, station).powi(2) * station.moments.area * share;
                 let metric = found.depths().metric();
                 Some(Pull { ends: piece.ends, centroid: found.centroid, weight, metric })
             })

@@ -3,10 +3,12 @@
 
 use nalgebra::Point3;
 
+use super::error::{SkeletonError, keep_on};
 use super::graph::Skeleton;
 use super::places::{Place, places};
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
+use crate::observer::Observer;
 use crate::segment::distance;
 
 /// A branch tells the surface within so many mean strut radii: the edges of a flat bar of 5 : 1 are
@@ -25,7 +27,11 @@ const PLACES: f64 = 1000.0;
 
 /// A finding when more than a trifle of the design surface lies far from the skeleton, at the
 /// place that lies farthest.
-pub(super) fn uncovered(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
+pub(super) fn uncovered(
+    surface: &Surface,
+    skeleton: &Skeleton,
+    observer: &mut impl Observer,
+) -> Result<Option<Finding>, SkeletonError> {
     let places = places(surface, |_| true, surface.design_area() / PLACES);
     let reach = REACH * surface.mean_radius();
     let branches: Vec<Segment> =
@@ -34,6 +40,7 @@ pub(super) fn uncovered(surface: &Surface, skeleton: &Skeleton) -> Option<Findin
     // The next place lies near the last one, mostly, and near the same branch.
     let mut near = 0;
     for Place { point, .. } in &places {
+        keep_on(observer)?;
         if branches.get(near).is_some_and(|s| s.beyond(point) <= 0.0) {
             continue;
         }
@@ -46,18 +53,18 @@ pub(super) fn uncovered(surface: &Surface, skeleton: &Skeleton) -> Option<Findin
         }
     }
     let part = far.len() as f64 / places.len().max(1) as f64;
-    let farthest = far.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map(|f| f.1)?;
-    (part > WORTH_SAYING).then(|| {
+    let farthest = far.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map(|f| f.1);
+    Ok((part > WORTH_SAYING).then(|| {
         Finding::note(
             FindingKind::NotBeamLike,
-            Some(farthest),
+            farthest,
             format!(
                 "{:.0} % of the design surface is far from every branch: a plate or a block there \
                  is not beam-like and is left out, in whole or in part",
                 100.0 * part
             ),
         )
-    })
+    }))
 }
 
 /// A straight piece of a branch and how far it tells the surface, mm.

@@ -16,8 +16,11 @@ use std::collections::BinaryHeap;
 use nalgebra::{Point3, Vector3};
 use rustc_hash::FxHashMap;
 
+use super::error::SkeletonError;
+use super::watch::Watch;
 use crate::mesh::id::FaceId;
 use crate::mesh::{HalfEdgeMesh, TriangleTree};
+use crate::observer::Observer;
 
 /// Lattice steps from end to end, coarse first: walls thinner than a fortieth of the way are not
 /// followed, and a finer lattice costs eight times as much.
@@ -30,12 +33,16 @@ const PLACES: usize = 60_000;
 pub(super) fn detour(
     mesh: &HalfEdgeMesh,
     tree: &TriangleTree,
-    a: &Point3<f64>,
-    b: &Point3<f64>,
-) -> Option<Vec<Point3<f64>>> {
-    let axes = axes(mesh, tree, a, b)?;
-    let way = FINENESS.iter().find_map(|n| Lattice { tree, a, b, axes: axes / *n }.way())?;
-    Some(without_idle_corners(tree, &way))
+    [a, b]: [&Point3<f64>; 2],
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Option<Vec<Point3<f64>>>, SkeletonError> {
+    let Some(axes) = axes(mesh, tree, a, b) else { return Ok(None) };
+    for n in FINENESS {
+        if let Some(way) = (Lattice { tree, a, b, axes: axes / n }).way(watch)? {
+            return Ok(Some(without_idle_corners(tree, &way)));
+        }
+    }
+    Ok(None)
 }
 
 /// Right-angled axes as long as the way, tied to the part so that they turn with it.
@@ -76,22 +83,39 @@ impl Lattice<'_> {
         (self.b - self.place(cell)).norm() / self.axes.column(0).norm()
     }
 
-    fn way(&self) -> Option<Vec<Point3<f64>>> {
-        let start = [0; 3];
+    fn way(
+        &self,
+        watch: &mut Watch<'_, impl Observer>,
+    ) -> Result<Option<Vec<Point3<f64>>>, SkeletonError> {
         let mut best: FxHashMap<Cell, (u32, Cell)> = FxHashMap::default();
+        let most = PLACES.min(watch.places_left);
+        let last = self.search(&mut best, most, watch)?;
+        watch.places_left = watch.places_left.saturating_sub(best.len());
+        Ok(last.map(|cell| self.traced(&best, cell)))
+    }
+
+    /// The place from which `b` is seen, once it is reached; `best` has the way there.
+    fn search(
+        &self,
+        best: &mut FxHashMap<Cell, (u32, Cell)>,
+        most: usize,
+        watch: &mut Watch<'_, impl Observer>,
+    ) -> Result<Option<Cell>, SkeletonError> {
+        let start = [0; 3];
         let mut open = BinaryHeap::new();
         best.insert(start, (0, start));
         open.push(Reverse((rank(self.left(start)), 0, start)));
         while let Some(Reverse((_, steps, cell))) = open.pop() {
+            watch.keep_on()?;
             if best[&cell].0 < steps {
                 continue;
             }
             let here = self.place(cell);
             if self.left(cell) < 2.0 && !self.tree.is_crossed_by(&here, self.b) {
-                return Some(self.traced(&best, cell));
+                return Ok(Some(cell));
             }
-            if best.len() > PLACES {
-                return None;
+            if best.len() > most {
+                return Ok(None);
             }
             for next in neighbours(cell) {
                 let taken = best.get(&next).is_some_and(|(s, _)| *s <= steps + 1);
@@ -103,7 +127,7 @@ impl Lattice<'_> {
                 open.push(Reverse((rank, steps + 1, next)));
             }
         }
-        None
+        Ok(None)
     }
 
     /// The way from `a` to `b` over `cell`, both ends included.
@@ -177,7 +201,9 @@ mod tests {
     fn a_way_is_found_round_an_opening() {
         let surface = prepare(&square_frame(), &LabelParams::default()).expect("a closed mesh");
         let (a, b) = (Point3::new(-4.0, 0.0, 1.0), Point3::new(4.0, 0.2, 1.0));
-        let way = detour(&surface.mesh, &surface.tree, &a, &b).expect("a way");
+        let way = detour(&surface.mesh, &surface.tree, [&a, &b], &mut Watch::new(&mut ()))
+            .expect("nobody stops it")
+            .expect("a way");
         let all: Vec<Point3<f64>> = std::iter::once(a).chain(way).chain([b]).collect();
         assert!(all.len() >= 4, "two corners at least: {all:?}");
         assert!(all.windows(2).all(|w| !surface.tree.is_crossed_by(&w[0], &w[1])));

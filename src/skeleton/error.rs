@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use super::params::OutOfRange;
+use crate::observer::Observer;
 
 /// Why a march could not produce a skeleton.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -22,7 +23,25 @@ pub enum SkeletonError {
         near: Point3<f64>,
     },
 
+    /// The mesh reaches so far that what is thick in it cannot be told from nothing.
+    #[error(
+        "the mesh reaches {ratio:.1e} times as far as it is thick; the point at ({:.2}, {:.2}, {:.2}) \
+         mm lies farthest from the rest: remove it if it is a stray one, or split the part",
+        farthest.x, farthest.y, farthest.z
+    )]
+    TooSlender {
+        /// Its extent in mean strut radii.
+        ratio: f64,
+        /// The point farthest from the middle.
+        farthest: Point3<f64>,
+    },
+
     /// The observer asked to stop.
     #[error("cancelled")]
     Cancelled,
+}
+
+/// An error as soon as the observer asks to stop; cheap enough for every turn of a loop.
+pub(crate) fn keep_on(observer: &mut impl Observer) -> Result<(), SkeletonError> {
+    if observer.keep_on().is_break() { Err(SkeletonError::Cancelled) } else { Ok(()) }
 }

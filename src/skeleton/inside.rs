@@ -3,8 +3,11 @@
 use nalgebra::{Point3, Vector3};
 
 use super::detour::detour;
+use super::error::SkeletonError;
+use super::watch::Watch;
 use crate::mesh::id::FaceId;
 use crate::mesh::{HalfEdgeMesh, InterfaceSection, Surface, TriangleTree};
+use crate::observer::Observer;
 
 /// Halvings of a segment that leaves the object. A quarter circle in a ring is followed within a
 /// thousandth of its radius after six.
@@ -43,27 +46,29 @@ pub(crate) fn is_inside(tree: &TriangleTree, a: &Point3<f64>, b: &Point3<f64>) -
 /// Points between `a` and `b` over which the way stays inside; empty when the straight way does,
 /// and as good as possible when none is found.
 pub(crate) fn way_inside(
-    mesh: &HalfEdgeMesh,
-    tree: &TriangleTree,
+    Surface { mesh, tree, .. }: &Surface,
     a: &Point3<f64>,
     b: &Point3<f64>,
-) -> Vec<Point3<f64>> {
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Vec<Point3<f64>>, SkeletonError> {
     let mut halved = Vec::new();
     halve(mesh, tree, a, b, HALVINGS, &mut halved);
     if halved.is_empty() && !tree.is_crossed_by(a, b) {
-        return halved;
+        return Ok(halved);
     }
     halved.push(*b);
     let (mut way, mut at) = (Vec::new(), *a);
     for next in halved {
         if tree.is_crossed_by(&at, &next) {
-            way.extend(detour(mesh, tree, &at, &next).unwrap_or_default());
+            let ends = [&at, &next];
+            let found = watch.detour(ends, |watch| detour(mesh, tree, ends, watch))?;
+            way.extend(found.unwrap_or_default());
         }
         way.push(next);
         at = next;
     }
     way.pop();
-    way
+    Ok(way)
 }
 
 fn halve(

@@ -26,7 +26,9 @@ pub(crate) mod inside;
 pub mod local;
 pub mod params;
 mod places;
+mod reach;
 pub mod verify;
+mod watch;
 
 pub use error::SkeletonError;
 pub use graph::{Branch, PointKind, SkeletalPoint, Skeleton};
@@ -55,11 +57,12 @@ pub fn march(
     observer: &mut impl Observer,
 ) -> Result<Marched, SkeletonError> {
     params.check()?;
+    reach::check(surface)?;
     let mut marched = match params.orientation {
         Orientation::Local => local::skeleton(surface, params, observer)?,
         Orientation::Global => global::skeleton(surface, params, observer)?,
     };
-    marched.findings.extend(verify::verify(surface, &marched.skeleton));
-    marched.findings.extend(coverage::uncovered(surface, &marched.skeleton));
+    marched.findings.extend(verify::verify(surface, &marched.skeleton, observer)?);
+    marched.findings.extend(coverage::uncovered(surface, &marched.skeleton, observer)?);
     Ok(marched)
 }

@@ -1,9 +1,11 @@
 //! Holds a skeleton against what always has to hold: inside the object, same topology.
 
-use super::graph::{PointKind, Skeleton};
+use super::error::{SkeletonError, keep_on};
+use super::graph::{PointKind, SkeletalPoint, Skeleton};
 use super::local::patch::patches;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::{InterfaceKind, Surface};
+use crate::observer::Observer;
 use crate::wording::counted;
 
 /// Components and independent cycles the skeleton of a surface must have: those of the design part
@@ -26,34 +28,59 @@ impl Homotopy {
 }
 
 /// All invariants that do not hold, each with the place of the first breach.
-pub fn verify(surface: &Surface, skeleton: &Skeleton) -> Vec<Finding> {
+///
+/// # Errors
+/// The observer asked to stop.
+pub fn verify(
+    surface: &Surface,
+    skeleton: &Skeleton,
+    observer: &mut impl Observer,
+) -> Result<Vec<Finding>, SkeletonError> {
     let mut findings = Vec::new();
-    findings.extend(points_outside(surface, skeleton));
-    findings.extend(segments_outside(surface, skeleton));
+    findings.extend(points_outside(surface, skeleton, observer)?);
+    findings.extend(segments_outside(surface, skeleton, observer)?);
     findings.extend(topology(surface, skeleton));
     findings.extend(interface_ends(surface, skeleton));
-    findings
+    Ok(findings)
 }
 
-fn points_outside(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
-    let mut outside = skeleton.points.iter().filter(|p| !surface.tree.contains(&p.position));
-    let first = outside.next()?.position;
-    Some(Finding::breach(FindingKind::Outside, Some(first), {
-        let lie = ["skeletal point lies", "skeletal points lie"];
-        format!("{} outside the object", counted(1 + outside.count(), lie[0], lie[1]))
+fn points_outside(
+    surface: &Surface,
+    skeleton: &Skeleton,
+    observer: &mut impl Observer,
+) -> Result<Option<Finding>, SkeletonError> {
+    let (mut first, mut count) = (None, 0);
+    for SkeletalPoint { position, .. } in &skeleton.points {
+        keep_on(observer)?;
+        if !surface.tree.contains(position) {
+            first.get_or_insert(*position);
+            count += 1;
+        }
+    }
+    Ok(first.map(|first| {
+        let lie = counted(count, "skeletal point lies", "skeletal points lie");
+        Finding::breach(FindingKind::Outside, Some(first), format!("{lie} outside the object"))
     }))
 }
 
-fn segments_outside(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {
-    let crosses = |[a, b]: &[u32; 2]| {
-        surface.tree.is_crossed_by(&skeleton.position(*a), &skeleton.position(*b))
-    };
-    let mut leaving = skeleton.segments().filter(crosses);
-    let [a, b] = leaving.next()?;
-    let place = nalgebra::center(&skeleton.position(a), &skeleton.position(b));
-    Some(Finding::breach(FindingKind::Outside, Some(place), {
+fn segments_outside(
+    surface: &Surface,
+    skeleton: &Skeleton,
+    observer: &mut impl Observer,
+) -> Result<Option<Finding>, SkeletonError> {
+    let (mut first, mut count) = (None, 0);
+    for segment in skeleton.segments() {
+        keep_on(observer)?;
+        let [a, b] = segment.map(|p| skeleton.position(p));
+        if surface.tree.is_crossed_by(&a, &b) {
+            first.get_or_insert(nalgebra::center(&a, &b));
+            count += 1;
+        }
+    }
+    Ok(first.map(|first| {
         let leave = ["segment of the skeleton leaves", "segments of the skeleton leave"];
-        format!("{} the object", counted(1 + leaving.count(), leave[0], leave[1]))
+        let leave = counted(count, leave[0], leave[1]);
+        Finding::breach(FindingKind::Outside, Some(first), format!("{leave} the object"))
     }))
 }
 

@@ -3,23 +3,31 @@
 use super::draft::{Draft, HubKind, Run};
 use super::sample::{Sample, samples};
 use crate::mesh::Surface;
+use crate::observer::Observer;
+use crate::skeleton::error::SkeletonError;
 use crate::skeleton::graph::{Branch, PointKind, SkeletalPoint, Skeleton};
 use crate::skeleton::inside::way_inside;
+use crate::skeleton::watch::Watch;
 
 /// Places the points of every run about `step` apart and chains runs over knees to branches.
-pub(crate) fn assemble(surface: &Surface, step: f64, draft: &Draft) -> Skeleton {
+pub(crate) fn assemble(
+    surface: &Surface,
+    step: f64,
+    draft: &Draft,
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Skeleton, SkeletonError> {
     let at = draft.incidences();
     let mut skeleton = Skeleton::default();
     let of_hub = hub_points(draft, &at, &mut skeleton);
     let mut chains: Vec<Vec<u32>> = Vec::with_capacity(draft.runs.len());
     for run in &draft.runs {
         let hubs = run.hubs.map(|h| &draft.hubs[h]);
-        let placed = samples(surface, run, hubs, step);
+        let placed = samples(surface, run, hubs, step, watch)?;
         let ends = run.hubs.map(|h| of_hub[h]);
-        chains.push(run_points(surface, run, &placed, ends, &mut skeleton));
+        chains.push(run_points(surface, run, &placed, ends, &mut skeleton, watch)?);
     }
     skeleton.branches = chained(draft, &at, &chains);
-    skeleton
+    Ok(skeleton)
 }
 
 /// One point for every hub in use; its index by hub.
@@ -46,7 +54,8 @@ fn run_points(
     samples: &[Sample],
     ends: [u32; 2],
     skeleton: &mut Skeleton,
-) -> Vec<u32> {
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Vec<u32>, SkeletonError> {
     let [start, end] = ends.map(|e| skeleton.position(e));
     let mut chain = vec![ends[0]];
     let mut add = |position, radius| {
@@ -55,17 +64,18 @@ fn run_points(
     };
     let mut at = start;
     for &Sample { position, radius } in samples {
-        for between in way_inside(&surface.mesh, &surface.tree, &at, &position) {
+        watch.keep_on()?;
+        for between in way_inside(surface, &at, &position, watch)? {
             add(between, radius);
         }
         add(position, radius);
         at = position;
     }
-    for between in way_inside(&surface.mesh, &surface.tree, &at, &end) {
+    for between in way_inside(surface, &at, &end, watch)? {
         add(between, run.radius());
     }
     chain.push(ends[1]);
-    chain
+    Ok(chain)
 }
 
 /// Joins the chains of runs over knees, in the order of the first run of each branch.

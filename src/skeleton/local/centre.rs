@@ -13,7 +13,10 @@ use super::sample::moved;
 use super::trend::Trend;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
+use crate::observer::Observer;
+use crate::skeleton::error::SkeletonError;
 use crate::skeleton::params::Junctions;
+use crate::skeleton::watch::Watch;
 use crate::wording::counted;
 
 /// Most turns. Joints settle in about six.
@@ -62,7 +65,12 @@ fn no_straight_bars(apart: usize, joints: usize, first: Option<Point3<f64>>) -> 
 }
 
 /// Moves every joint into the middle of the first points of its branches, about `step` away.
-pub(crate) fn centre_joints(draft: &mut Draft, surface: &Surface, step: f64) {
+pub(crate) fn centre_joints(
+    draft: &mut Draft,
+    surface: &Surface,
+    step: f64,
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<(), SkeletonError> {
     let at = draft.incidences();
     let joints = free_joints(draft, &at);
     joints.iter().for_each(|&hub| draft.hubs[hub].is_centred = true);
@@ -71,7 +79,7 @@ pub(crate) fn centre_joints(draft: &mut Draft, surface: &Surface, step: f64) {
     for _ in 0..TURNS {
         for (points, run) in beside.iter_mut().zip(&draft.runs) {
             if run.hubs.iter().any(|&hub| has_moved[hub]) {
-                *points = beside_hubs(draft, surface, run, step);
+                *points = beside_hubs(draft, surface, run, step, watch)?;
             }
         }
         has_moved.fill(false);
@@ -88,6 +96,7 @@ pub(crate) fn centre_joints(draft: &mut Draft, surface: &Surface, step: f64) {
             break;
         }
     }
+    Ok(())
 }
 
 /// Joints that may lie anywhere.
@@ -106,11 +115,17 @@ fn is_apart(draft: &Draft, runs: &[(usize, usize)], hub: usize) -> bool {
 }
 
 /// The points of a run next to its hubs.
-fn beside_hubs(draft: &Draft, surface: &Surface, run: &Run, step: f64) -> [Point3<f64>; 2] {
+fn beside_hubs(
+    draft: &Draft,
+    surface: &Surface,
+    run: &Run,
+    step: f64,
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<[Point3<f64>; 2], SkeletonError> {
     let hubs = run.hubs.map(|h| &draft.hubs[h]);
-    let Some(trend) = Trend::of(run) else { return hubs.map(|h| h.position) };
-    let points = moved(surface, run, &trend, hubs, step).points;
-    [points[1], points[points.len() - 2]]
+    let Some(trend) = Trend::of(run) else { return Ok(hubs.map(|h| h.position)) };
+    let points = moved(surface, run, &trend, hubs, step, watch)?.points;
+    Ok([points[1], points[points.len() - 2]])
 }
 
 #[cfg(test)]

@@ -5,7 +5,10 @@ use nalgebra::Point3;
 use super::draft::{Hub, HubKind, Run};
 use super::trend::Trend;
 use crate::mesh::Surface;
+use crate::observer::Observer;
+use crate::skeleton::error::SkeletonError;
 use crate::skeleton::inside::way_inside;
+use crate::skeleton::watch::Watch;
 
 /// Sections next to a joint that are larger than the trend by this factor of area hold parts of
 /// other branches.
@@ -18,7 +21,8 @@ pub(crate) fn base_curve(
     run: &Run,
     trend: &Trend,
     hubs: [&Hub; 2],
-) -> Vec<Point3<f64>> {
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Vec<Point3<f64>>, SkeletonError> {
     let [start, end] = hubs.map(|h| h.position);
     let n = run.stations.len();
     let part = |i: usize| i as f64 / (n - 1).max(1) as f64;
@@ -41,9 +45,10 @@ pub(crate) fn base_curve(
         (first, last) = (n / 2, n / 2 + usize::from(n > 2));
     }
     let mut curve = vec![start];
-    curve.extend(run.stations[first..last].iter().map(|s| s.centroid));
+    let stride = (last - first).div_ceil(MOST_ON_CURVE).max(1);
+    curve.extend(run.stations[first..last].iter().step_by(stride).map(|s| s.centroid));
     curve.push(end);
-    inner_curve(surface, &curve)
+    inner_curve(surface, &curve, watch)
 }
 
 /// Whether sections next to the hub hold parts of other legs.
@@ -52,37 +57,85 @@ pub(crate) fn is_bend(kind: HubKind) -> bool {
 }
 
 /// The curve with points put in where it would leave the object.
-fn inner_curve(surface: &Surface, curve: &[Point3<f64>]) -> Vec<Point3<f64>> {
+fn inner_curve(
+    surface: &Surface,
+    curve: &[Point3<f64>],
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Vec<Point3<f64>>, SkeletonError> {
     let mut inner = vec![curve[0]];
     for pair in curve.windows(2) {
-        inner.extend(way_inside(&surface.mesh, &surface.tree, &pair[0], &pair[1]));
+        watch.keep_on()?;
+        inner.extend(way_inside(surface, &pair[0], &pair[1], watch)?);
         inner.push(pair[1]);
     }
-    inner
+    Ok(inner)
 }
 
 /// Most pieces of one branch: a branch a thousand radii long has as many, and one that is longer
 /// has long pieces instead of taking all memory.
-const MOST_PIECES: f64 = 4096.0;
+pub(crate) const MOST_PIECES: f64 = 4096.0;
+
+/// Most centroids the way of one branch is taken from: two for every piece.
+const MOST_ON_CURVE: usize = 2 * MOST_PIECES as usize;
+
+/// A polyline and the lengths of its segments.
+pub(crate) struct Polyline<'a> {
+    points: &'a [Point3<f64>],
+    lengths: Vec<f64>,
+    total: f64,
+    /// Way to every point of a polyline of more than [`SHORT`] segments, mm.
+    way: Vec<f64>,
+}
+
+/// Segments that are counted off one by one, as many as a branch of a thousand radii has.
+const SHORT: usize = 1024;
+
+impl<'a> Polyline<'a> {
+    pub(crate) fn through(points: &'a [Point3<f64>]) -> Self {
+        let lengths: Vec<f64> = points.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
+        let total = lengths.iter().sum();
+        let way = if lengths.len() > SHORT { way_to_each(points) } else { Vec::new() };
+        Self { points, lengths, total, way }
+    }
+
+    /// The point `k` of `count` equal steps.
+    pub(crate) fn point(&self, k: usize, count: usize) -> Point3<f64> {
+        let mut left = self.total * k as f64 / count as f64;
+        let first = self.way.partition_point(|w| *w < left).saturating_sub(1);
+        left -= self.way.get(first).copied().unwrap_or(0.0);
+        for (pair, &length) in self.points.windows(2).zip(&self.lengths).skip(first) {
+            if left <= length && length > 0.0 {
+                return pair[0] + (pair[1] - pair[0]) * (left / length);
+            }
+            left -= length;
+        }
+        self.points[self.points.len() - 1]
+    }
+
+    /// The ends of `count` equal steps, the first and the last point included.
+    pub(crate) fn spaced(&self, count: usize) -> Vec<Point3<f64>> {
+        (0..=count).map(|k| self.point(k, count)).collect()
+    }
+}
+
+/// Way along a polyline from its first point to every point.
+pub(crate) fn way_to_each<'a>(points: impl IntoIterator<Item = &'a Point3<f64>>) -> Vec<f64> {
+    let mut points = points.into_iter();
+    let Some(mut last) = points.next() else { return Vec::new() };
+    let mut way = vec![0.0];
+    let mut at = 0.0;
+    for point in points {
+        at += (point - last).norm();
+        way.push(at);
+        last = point;
+    }
+    way
+}
 
 /// Points along a polyline at equal distances near `step`, in `least` pieces at least; both ends
 /// included.
 pub(crate) fn spaced(curve: &[Point3<f64>], step: f64, least: usize) -> Vec<Point3<f64>> {
-    let total: f64 = curve.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    let count = ((total / step).round().min(MOST_PIECES) as usize).max(least);
-    (0..=count).map(|k| curve_point(curve, k, count)).collect()
-}
-
-/// The point `k` of `count` equal steps along a polyline.
-pub(crate) fn curve_point(curve: &[Point3<f64>], k: usize, count: usize) -> Point3<f64> {
-    let total: f64 = curve.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    let mut left = total * k as f64 / count as f64;
-    for pair in curve.windows(2) {
-        let length = (pair[1] - pair[0]).norm();
-        if left <= length && length > 0.0 {
-            return pair[0] + (pair[1] - pair[0]) * (left / length);
-        }
-        left -= length;
-    }
-    curve[curve.len() - 1]
+    let curve = Polyline::through(curve);
+    let count = ((curve.total / step).round().min(MOST_PIECES) as usize).max(least);
+    curve.spaced(count)
 }

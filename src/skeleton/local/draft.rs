@@ -76,6 +76,11 @@ impl Run {
         *radii.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 
+    /// Way along the centroids of the sections, mm.
+    pub(crate) fn length(&self) -> f64 {
+        self.stations.windows(2).map(|w| (w[1].centroid - w[0].centroid).norm()).sum()
+    }
+
     /// The sections seen from end `end` (0: as they are, 1: backwards), directions turned along.
     pub(crate) fn seen_from(&self, end: usize) -> Vec<Station> {
         if end == 0 { self.stations.clone() } else { reversed(&self.stations) }

@@ -18,6 +18,8 @@
 //! * a non-design part begins, or another branch has passed already,
 //! * the surface closes: a free end.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Unit, Vector3};
 
 use super::band::{Band, Front, Verdict};
@@ -25,6 +27,8 @@ use super::claim::Claims;
 use crate::mesh::contour::{Contour, Extent, Plane, entry, follow};
 use crate::mesh::id::{FaceId, HalfEdgeId};
 use crate::mesh::{HalfEdgeMesh, Surface};
+use crate::observer::Observer;
+use crate::skeleton::error::{SkeletonError, keep_on};
 use crate::skeleton::identifier_box::IdentifierBox;
 use crate::skeleton::params::SkeletonParams;
 
@@ -86,12 +90,19 @@ const LARGEST_TURN: f64 = 0.906;
 /// than any strut; a needle asks for ever more, each smaller than the last.
 const MOST_FRONTS: usize = 4096;
 
+/// Bands that all marches together need at most, or one for every triangle if there are more. A wire
+/// ten thousand times as long as it is thick takes 35,000 steps of half a radius, the lattices of
+/// thousands of struts no more than they have triangles. A needle of a longer way takes longer steps.
+const MOST_BANDS: usize = 131_072;
+
 /// The march and the surface it has passed.
 #[derive(Debug)]
 pub(crate) struct March<'a> {
     pub(crate) surface: &'a Surface,
     pub(crate) params: &'a SkeletonParams,
-    pub(crate) claims: Claims,
+    pub(crate) claims: Claims<'a>,
+    /// Area of design surface that a band passes at least, mm².
+    least_band: f64,
     band: Band,
 }
 
@@ -100,7 +111,8 @@ impl<'a> March<'a> {
         Self {
             surface,
             params,
-            claims: Claims::new(surface.mesh.face_count()),
+            claims: Claims::new(&surface.mesh),
+            least_band: surface.design_area() / MOST_BANDS.max(surface.mesh.face_count()) as f64,
             band: Band::new(&surface.mesh),
         }
     }
@@ -110,15 +122,20 @@ impl<'a> March<'a> {
     }
 
     /// Marches both ways from a front; claims what it passes.
-    pub(crate) fn both_ways(&mut self, seed: Front) -> Tube {
+    pub(crate) fn both_ways(
+        &mut self,
+        seed: Front,
+        observer: &mut impl Observer,
+    ) -> Result<Tube, SkeletonError> {
         let back = self.reversed(&seed);
-        let ahead = self.one_way(seed);
-        let mut fronts = back.map(|back| self.one_way(back)).unwrap_or_default();
+        let ahead = self.one_way(seed, observer)?;
+        let mut fronts =
+            back.map(|back| self.one_way(back, observer)).transpose()?.unwrap_or_default();
         fronts.reverse();
         fronts.pop();
         let mut fronts: Vec<Front> = fronts.iter().filter_map(|f| self.reversed(f)).collect();
         fronts.extend(ahead);
-        Tube { fronts }
+        Ok(Tube { fronts })
     }
 
     /// Whether a whole step can be made from a front, ahead or back.
@@ -139,12 +156,17 @@ impl<'a> March<'a> {
     }
 
     /// Marches from `seed` along its normal; all fronts, the seed first.
-    fn one_way(&mut self, seed: Front) -> Vec<Front> {
+    fn one_way(
+        &mut self,
+        seed: Front,
+        observer: &mut impl Observer,
+    ) -> Result<Vec<Front>, SkeletonError> {
         let mut fronts = vec![seed];
         let mut part = 1.0;
         // Every step advances by at least a sixteenth of a radius and no band is passed twice; the
         // count ends a march towards the tip of a needle, where radii and steps go to nothing.
         while fronts.len() < MOST_FRONTS {
+            keep_on(observer)?;
             match self.advance(&fronts, part) {
                 Ok(front) => {
                     let (lower, upper) = (fronts[fronts.len() - 1].plane, front.plane);
@@ -152,19 +174,20 @@ impl<'a> March<'a> {
                     fronts.push(front);
                     part = f64::min(1.0, 2.0 * part);
                 }
-                Err(Stop::Passed) => return fronts,
+                Err(Stop::Passed) => return Ok(fronts),
                 Err(_) if part > SHORTEST_STEP => part *= 0.5,
-                Err(_) => return fronts,
+                Err(_) => return Ok(fronts),
             }
         }
-        fronts
+        Ok(fronts)
     }
 
     /// One step of the march, `part` of the wanted step long.
     fn advance(&mut self, fronts: &[Front], part: f64) -> Result<Front, Stop> {
         let last = &fronts[fronts.len() - 1];
         let radius = last.extent.radius();
-        let step = part * STEP * radius;
+        // A band of a rod has no less area than that of a round one.
+        let step = part * f64::max(STEP * radius, self.least_band / (TAU * radius));
         let direction = last.plane.normal;
         let ahead =
             self.cut_ahead(last, fronts, last.extent.centroid + *direction * step, direction)?;

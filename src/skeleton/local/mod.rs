@@ -36,11 +36,13 @@ mod seed;
 mod simplify;
 mod trend;
 
+use self::curve::MOST_PIECES;
 use self::draft::{Draft, HubKind};
 use self::march::March;
 use super::Marched;
 use super::error::SkeletonError;
 use super::params::SkeletonParams;
+use super::watch::Watch;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
 use crate::observer::Observer;
@@ -67,12 +69,13 @@ pub fn skeleton(
         return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }
     let step = params.step * mean_radius;
+    let mut watch = Watch::new(observer);
     let (is_centred, said) = centre::is_centred(&draft, params.junctions);
     if is_centred {
-        centre::centre_joints(&mut draft, surface, step);
+        centre::centre_joints(&mut draft, surface, step, &mut watch)?;
     }
-    let skeleton = assemble::assemble(surface, step, &draft);
-    Ok(Marched { skeleton, findings: findings(surface, &draft, said) })
+    let skeleton = assemble::assemble(surface, step, &draft, &mut watch)?;
+    Ok(Marched { skeleton, findings: findings(surface, &draft, step, said) })
 }
 
 /// A single rod with free ends is shorter than this many of its radii when it is a block: a cube is
@@ -87,7 +90,22 @@ fn is_block(draft: &Draft) -> bool {
     is_free && (a.position - b.position).norm() < BLOCK * run.radius()
 }
 
-fn findings(surface: &Surface, draft: &Draft, centred: Option<Finding>) -> Vec<Finding> {
+/// A branch that has as many points as a branch may have, farther apart than wanted.
+fn slender(draft: &Draft, step: f64) -> Option<Finding> {
+    let longest = draft.runs.iter().max_by(|a, b| a.length().total_cmp(&b.length()))?;
+    let apart = longest.length() / MOST_PIECES;
+    (apart > step).then(|| {
+        let middle = longest.stations.get(longest.stations.len() / 2).map(|s| s.centroid);
+        let thick = longest.length() / (2.0 * longest.radius());
+        let text = format!(
+            "a branch is {thick:.0} times as long as it is thick: its points are {apart:.3} mm apart, \
+             not {step:.3} mm"
+        );
+        Finding::note(FindingKind::Slender, middle, text)
+    })
+}
+
+fn findings(surface: &Surface, draft: &Draft, step: f64, centred: Option<Finding>) -> Vec<Finding> {
     let idle = draft.idle_interfaces.iter().map(|&i| {
         Finding::note(
             FindingKind::IdleInterface,
@@ -102,5 +120,5 @@ fn findings(surface: &Surface, draft: &Draft, centred: Option<Finding>) -> Vec<F
             format!("{} without any rod left out", counted(draft.blobs, "body", "bodies")),
         )
     });
-    idle.chain(blobs).chain(centred).collect()
+    idle.chain(blobs).chain(centred).chain(slender(draft, step)).collect()
 }

@@ -9,12 +9,15 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::curve::{SWOLLEN, base_curve, curve_point, is_bend, spaced};
+use super::curve::{Polyline, SWOLLEN, base_curve, is_bend, spaced};
 use super::draft::{Hub, HubKind, Run};
-use super::section_near::section_round;
+use super::section_near::{Stations, section_round};
 use super::trend::Trend;
 use crate::mesh::Surface;
+use crate::observer::Observer;
+use crate::skeleton::error::SkeletonError;
 use crate::skeleton::inside::middle_of_wall;
+use crate::skeleton::watch::Watch;
 
 /// A placed point of a run.
 #[derive(Clone, Copy, Debug)]
@@ -70,21 +73,25 @@ pub(crate) fn moved(
     trend: &Trend,
     hubs: [&Hub; 2],
     step: f64,
-) -> Moved {
-    let curve = base_curve(surface, run, trend, hubs);
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Moved, SkeletonError> {
+    let curve = base_curve(surface, run, trend, hubs, watch)?;
     let least = if run.hubs[0] == run.hubs[1] { 3 } else { 2 };
     let mut points = spaced(&curve, step, least);
     let last = points.len() - 1;
     let mut radii: Vec<f64> = (0..=last).map(|i| trend.at(i as f64 / last as f64)).collect();
     let mut shares = vec![0.0; last + 1];
+    let stations = Stations::of(run);
     for _ in 0..ROUNDS {
-        let old = spaced_again(&points);
+        // The same number of points at equal distances.
+        let old = Polyline::through(&points).spaced(last);
         for i in 1..last {
+            watch.keep_on()?;
             let Some(normal) = Unit::try_new(old[i + 1] - old[i - 1], 0.0) else { continue };
             let part = i as f64 / last as f64;
             let wanted = trend.at(part);
             let growth = Growth::beside(hubs[usize::from(part > 0.5)]);
-            let own = section_round(surface, run, &old[i], normal)
+            let own = section_round(surface, &stations, &old[i], normal, part)
                 .filter(|s| (s.centroid - old[i]).norm() <= s.radius());
             shares[i] = own.map_or(0.0, |s| growth.share(s.area / (PI * wanted * wanted)));
             points[i] = old[i];
@@ -94,13 +101,20 @@ pub(crate) fn moved(
             }
         }
     }
-    Moved { points, radii, shares, curve }
+    Ok(Moved { points, radii, shares, curve })
 }
 
 /// Points between two hubs, both left out, about `step` apart.
-pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) -> Vec<Sample> {
-    let Some(trend) = Trend::of(run) else { return Vec::new() };
-    let Moved { points, radii, mut shares, curve } = moved(surface, run, &trend, hubs, step);
+pub(crate) fn samples(
+    surface: &Surface,
+    run: &Run,
+    hubs: [&Hub; 2],
+    step: f64,
+    watch: &mut Watch<'_, impl Observer>,
+) -> Result<Vec<Sample>, SkeletonError> {
+    let Some(trend) = Trend::of(run) else { return Ok(Vec::new()) };
+    let Moved { points, radii, mut shares, curve } =
+        moved(surface, run, &trend, hubs, step, watch)?;
     let last = points.len() - 1;
     let strays = [0, 1].map(|end| {
         let beside = |i: usize| {
@@ -117,12 +131,12 @@ pub(crate) fn samples(surface: &Surface, run: &Run, hubs: [&Hub; 2], step: f64) 
             shares[i] = 0.0;
         }
     }
-    placed(&shares)
-        .map(|i| {
-            let position = kept_inside(surface, points[i], curve_point(&curve, i, last));
-            Sample { position, radius: radii[i] }
-        })
-        .collect()
+    let curve = Polyline::through(&curve);
+    let at = |i: usize| {
+        let position = kept_inside(surface, points[i], || curve.point(i, last));
+        Sample { position, radius: radii[i] }
+    };
+    Ok(placed(&shares).map(at).collect())
 }
 
 /// Within so many radii of a joint a point is placed only next to another one. Legs that part at a
@@ -168,12 +182,6 @@ fn placed(shares: &[f64]) -> impl Iterator<Item = usize> {
     (1..last).filter(move |&i| own[i] || Some(i) == best)
 }
 
-/// The same number of points at equal distances along the polyline through them.
-fn spaced_again(points: &[Point3<f64>]) -> Vec<Point3<f64>> {
-    let last = points.len() - 1;
-    (0..=last).map(|k| curve_point(points, k, last)).collect()
-}
-
 impl Growth {
     /// What holds next to a hub.
     fn beside(hub: &Hub) -> Self {
@@ -194,10 +202,15 @@ impl Growth {
 }
 
 /// The point if it is inside, else the place on the curve, else the middle of the nearest wall.
-fn kept_inside(surface: &Surface, point: Point3<f64>, on_curve: Point3<f64>) -> Point3<f64> {
+fn kept_inside(
+    surface: &Surface,
+    point: Point3<f64>,
+    on_curve: impl FnOnce() -> Point3<f64>,
+) -> Point3<f64> {
     if surface.tree.contains(&point) {
         return point;
     }
+    let on_curve = on_curve();
     if surface.tree.contains(&on_curve) {
         return on_curve;
     }

@@ -1,8 +1,6 @@
 //! Finds all tubes: asks the surface place by place, marches where a rod is, and looks closer
 //! wherever the remaining pieces hide something.
 
-use std::ops::ControlFlow;
-
 use nalgebra::Point3;
 
 use super::axis::{Axis, all_pass, axis_at_start};
@@ -15,7 +13,7 @@ use crate::mesh::contour::Contour;
 use crate::mesh::id::FaceId;
 use crate::mesh::{InterfaceKind, Surface};
 use crate::observer::{Observer, Stage};
-use crate::skeleton::error::SkeletonError;
+use crate::skeleton::error::{SkeletonError, keep_on};
 use crate::skeleton::places::{Place, places};
 
 /// One way of looking: how dense, and how long a tube must be to count.
@@ -106,15 +104,7 @@ pub(crate) fn find_tubes(
             places(surface, |_| true, area_each)
         };
         let before = tubes.len();
-        let mut progress = |done| match observer.progress(
-            Stage::Skeleton,
-            round * 100 + 100 * done / places.len().max(1),
-            LOOKS.len() * 100,
-        ) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(SkeletonError::Cancelled),
-        };
-        search(march, &places, look, mean_radius, &mut tubes, &mut progress)?;
+        search(march, &places, round, mean_radius, &mut tubes, observer)?;
         if tubes.len() > before {
             cut = None;
         }
@@ -171,16 +161,21 @@ fn meet(legs: &[Vec<Station>], middle: &Point3<f64>) -> bool {
 fn search(
     march: &mut March<'_>,
     places: &[Place],
-    look: &Look,
+    round: usize,
     mean_radius: f64,
     tubes: &mut Vec<Tube>,
-    progress: &mut impl FnMut(usize) -> Result<(), SkeletonError>,
+    observer: &mut impl Observer,
 ) -> Result<(), SkeletonError> {
+    let look = &LOOKS[round];
     let reach = look.reach * mean_radius;
     let mut cut: Vec<Front> = Vec::new();
     for (i, place) in places.iter().enumerate() {
+        keep_on(observer)?;
         if i % 64 == 0 {
-            progress(i)?;
+            let done = round * 100 + 100 * i / places.len();
+            if observer.progress(Stage::Skeleton, done, LOOKS.len() * 100).is_break() {
+                return Err(SkeletonError::Cancelled);
+            }
         }
         if march.claims.holds(place.face, &place.point) {
             continue;
@@ -189,25 +184,32 @@ fn search(
         if look.thinnest_first {
             cut.push(front);
         } else {
-            try_front(march, front, look, tubes);
+            try_front(march, front, look, tubes, observer)?;
         }
     }
     cut.sort_by(|a, b| a.extent.area.total_cmp(&b.extent.area));
-    cut.into_iter().for_each(|front| try_front(march, front, look, tubes));
-    Ok(())
+    cut.into_iter().try_for_each(|front| try_front(march, front, look, tubes, observer))
 }
 
 /// Marches from a front and keeps the tube if it is long enough.
-fn try_front(march: &mut March<'_>, front: Front, look: &Look, tubes: &mut Vec<Tube>) {
+fn try_front(
+    march: &mut March<'_>,
+    front: Front,
+    look: &Look,
+    tubes: &mut Vec<Tube>,
+    observer: &mut impl Observer,
+) -> Result<(), SkeletonError> {
+    keep_on(observer)?;
     if !march.is_free(&front) || (look.shortest > 0.0 && !march.goes_on(&front)) {
-        return;
+        return Ok(());
     }
     let shortest = look.shortest * front.extent.radius();
     let mark = march.claims.mark();
-    let tube = march.both_ways(front);
+    let tube = march.both_ways(front, observer)?;
     if tube.length() < shortest {
         march.claims.take_back(mark);
     } else {
         tubes.push(tube);
     }
+    Ok(())
 }

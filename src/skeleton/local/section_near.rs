@@ -2,7 +2,8 @@
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::draft::Run;
+use super::curve::way_to_each;
+use super::draft::{Run, Station};
 use crate::mesh::contour::{Extent, Plane, closed_round, contour_round, entry};
 use crate::mesh::id::HalfEdgeId;
 use crate::mesh::{HalfEdgeMesh, Surface};
@@ -10,17 +11,60 @@ use crate::mesh::{HalfEdgeMesh, Surface};
 /// Sections that reach farther than this many times the last one are not the branch's own.
 const REACH: f64 = 4.0;
 
-/// The section of the branch round a point, of design faces only.
+/// The stations of a run with the way to each of them, to find the nearest of thousands.
+pub(crate) struct Stations<'a> {
+    all: &'a [Station],
+    /// Way along the centroids from the first, mm.
+    way: Vec<f64>,
+}
+
+impl<'a> Stations<'a> {
+    pub(crate) fn of(run: &'a Run) -> Self {
+        let way = way_to_each(run.stations.iter().map(|s| &s.centroid));
+        Self { all: &run.stations, way }
+    }
+
+    /// The station nearest to a point, the first of those equally near; `part` 0..1 of the way says
+    /// about where it is.
+    ///
+    /// No station is nearer than the last one looked at by more than the way between them: that many
+    /// are passed over.
+    fn nearest(&self, point: &Point3<f64>, part: f64) -> Option<&'a Station> {
+        let distance = |i: usize| (self.all[i].centroid - point).norm_squared();
+        let total = *self.way.last()?;
+        let guess = self.way.partition_point(|w| *w < part * total);
+        let bound = distance(guess.min(self.all.len().checked_sub(1)?)).sqrt();
+        let (mut best, mut least, mut at) = (0, f64::INFINITY, 0);
+        while at < self.all.len() {
+            let here = distance(at);
+            if here < least {
+                (best, least) = (at, here);
+            }
+            let spare = here.sqrt() - bound.min(least.sqrt()) - ROUNDING * (total + bound);
+            let beyond = self.way[at] + spare;
+            at += 1;
+            if spare > 0.0 {
+                at += self.way[at..].partition_point(|w| *w < beyond);
+            }
+        }
+        Some(&self.all[best])
+    }
+}
+
+/// Rounding of a way, relative to its length; far more than that of thousands of additions.
+const ROUNDING: f64 = 1e-9;
+
+/// The section of the branch round a point, of design faces only; `part` 0..1 of the way along the
+/// run the point lies about.
 pub(crate) fn section_round(
     surface: &Surface,
-    run: &Run,
+    stations: &Stations<'_>,
     point: &Point3<f64>,
     normal: Unit<Vector3<f64>>,
+    part: f64,
 ) -> Option<Extent> {
     let plane = Plane::new(*point, normal);
-    let nearest = run.stations.iter().min_by(|a, b| {
-        (a.centroid - point).norm_squared().total_cmp(&(b.centroid - point).norm_squared())
-    })?;
+    let nearest = stations.nearest(point, part)?;
     let reach = REACH * nearest.reach;
     let contour = approach(&surface.mesh, &plane, nearest.side)
         .and_then(|start| closed_round(&surface.mesh, &plane, start, reach))
@@ -53,5 +97,31 @@ fn approach(mesh: &HalfEdgeMesh, plane: &Plane, from: HalfEdgeId) -> Option<Half
             return Some(start);
         }
         at = next;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::axis::tests::station;
+    use super::*;
+
+    #[test]
+    fn the_nearest_section_is_found_whatever_is_guessed() {
+        // A rod that bends back on itself and has its sections ever closer together.
+        let at = |i: i32| {
+            let s = f64::from(i) / 400.0;
+            station([100.0 * s * s, 30.0 * (6.0 * s).sin(), 0.0], 1.0)
+        };
+        let run = Run { hubs: [0, 0], stations: (0..400).map(at).collect() };
+        let stations = Stations::of(&run);
+        for k in 0..200 {
+            let point = Point3::new(f64::from(k), f64::from(k % 60 - 30), f64::from(k % 7));
+            let far = |s: &Station| (s.centroid - point).norm();
+            let least = run.stations.iter().map(far).fold(f64::INFINITY, f64::min);
+            for part in [0.0, 0.3, 1.0] {
+                let found = stations.nearest(&point, part).expect("a section");
+                assert_eq!(far(found), least, "{point} from {part}");
+            }
+        }
     }
 }
