@@ -193,7 +193,7 @@ impl<'a> Ruler<'a> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     /// A box with one corner pulled out, so that no two corners are alike.
@@ -223,7 +223,11 @@ mod tests {
         [1, 7, 5],
     ];
 
-    fn mesh(positions: Vec<Point3<f64>>, triangles: Vec<[u32; 3]>) -> HalfEdgeMesh {
+    /// Closed surfaces, each half-edge with the one other way round.
+    pub(in crate::mesh) fn mesh(
+        positions: Vec<Point3<f64>>,
+        triangles: Vec<[u32; 3]>,
+    ) -> HalfEdgeMesh {
         let side = |h: usize| (triangles[h / 3][h % 3], triangles[h / 3][(h + 1) % 3]);
         let twins = (0..3 * triangles.len())
             .map(|h| {
