@@ -98,18 +98,22 @@ pub fn follow(
     mut keep_on: impl FnMut(&Point3<f64>) -> bool,
 ) -> bool {
     contour.clear();
-    let height = |h: HalfEdgeId| plane.height(&mesh.position(mesh.origin(h)));
+    let end = |vertex| {
+        let at = mesh.position(vertex);
+        (at, plane.height(&at))
+    };
     let mut h = start;
-    let (mut above, mut below) = (height(h), height(h.next()));
+    let (mut above, mut below) = (end(mesh.origin(h)), end(mesh.target(h)));
     loop {
-        let point = crossing(mesh, h, above, below);
+        let point = crossing(&above, &below);
         if !keep_on(&point) {
             return false;
         }
         contour.half_edges.push(h);
         contour.points.push(point);
-        let apex = height(h.previous());
-        let out = if apex >= 0.0 {
+        let apex = end(mesh.origin(h.previous()));
+        // The apex is an end of the next side, the other end is known already.
+        let out = if apex.1 >= 0.0 {
             above = apex;
             h.next()
         } else {
@@ -123,9 +127,8 @@ pub fn follow(
     }
 }
 
-/// Where a side is crossed whose ends lie `above` and `below` the plane.
-fn crossing(mesh: &HalfEdgeMesh, h: HalfEdgeId, above: f64, below: f64) -> Point3<f64> {
-    let (a, b) = (mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)));
+/// Where a side is crossed, given its ends above and below the plane and their heights.
+fn crossing((a, above): &(Point3<f64>, f64), (b, below): &(Point3<f64>, f64)) -> Point3<f64> {
     let t = above / (above - below);
     a + (b - a) * t
 }
@@ -143,19 +146,21 @@ pub fn contour_round(
     let far = plane.point + (u * 0.8 + v * 0.6) * reach;
     let hit = tree.first_crossing(&plane.point, &far)?;
     let start = entry(mesh, plane, FaceId(hit.face))?;
-    closed_round(mesh, plane, start, reach)
+    let mut contour = Contour::default();
+    closed_round(mesh, plane, start, reach, &mut contour).then_some(contour)
 }
 
-/// The contour over the crossed side `start`, if it encloses the plane's point within `reach`.
+/// Follows the contour over the crossed side `start`; whether it encloses the plane's point within
+/// `reach`.
 pub fn closed_round(
     mesh: &HalfEdgeMesh,
     plane: &Plane,
     start: HalfEdgeId,
     reach: f64,
-) -> Option<Contour> {
-    let mut contour = Contour::default();
-    let fits = follow(mesh, plane, start, &mut contour, |p| (p - plane.point).norm() <= reach);
-    (fits && contour.points.len() >= 3 && contour.encloses(plane)).then_some(contour)
+    contour: &mut Contour,
+) -> bool {
+    let fits = follow(mesh, plane, start, contour, |p| (p - plane.point).norm() <= reach);
+    fits && contour.points.len() >= 3 && contour.encloses(plane)
 }
 
 /// Size and place of the region a contour encloses.

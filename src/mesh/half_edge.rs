@@ -92,7 +92,9 @@ impl HalfEdgeMesh {
 
     /// Corner positions of a triangle, mm.
     pub fn corners(&self, face: FaceId) -> [Point3<f64>; 3] {
-        self.triangles[face.index()].map(|v| self.positions[v as usize])
+        // Spelled out: `map` over the three is not unrolled.
+        let [a, b, c] = self.triangles[face.index()];
+        [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
     /// The same edge seen from the neighbouring triangle.

@@ -52,10 +52,10 @@ pub(crate) fn way_inside(
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Vec<Point3<f64>>, SkeletonError> {
     let mut halved = Vec::new();
-    halve(mesh, tree, a, b, HALVINGS, &mut halved);
-    if halved.is_empty() && !tree.is_crossed_by(a, b) {
+    if !tree.is_crossed_by(a, b) {
         return Ok(halved);
     }
+    halve_crossed(mesh, tree, a, b, HALVINGS, &mut halved);
     halved.push(*b);
     let (mut way, mut at) = (Vec::new(), *a);
     for next in halved {
@@ -79,9 +79,20 @@ fn halve(
     left: usize,
     way: &mut Vec<Point3<f64>>,
 ) {
-    if left == 0 || !tree.is_crossed_by(a, b) {
-        return;
+    if left > 0 && tree.is_crossed_by(a, b) {
+        halve_crossed(mesh, tree, a, b, left, way);
     }
+}
+
+/// Halves a way that leaves the object.
+fn halve_crossed(
+    mesh: &HalfEdgeMesh,
+    tree: &TriangleTree,
+    a: &Point3<f64>,
+    b: &Point3<f64>,
+    left: usize,
+    way: &mut Vec<Point3<f64>>,
+) {
     let Some(middle) = middle_of_wall(mesh, tree, &nalgebra::center(a, b)) else { return };
     halve(mesh, tree, a, &middle, left - 1, way);
     way.push(middle);

@@ -32,6 +32,8 @@ pub(crate) enum Verdict {
     Splits,
     /// The two fronts cross each other inside the branch.
     FrontsCross,
+    /// A face between them is none of the branch's.
+    Foreign,
 }
 
 /// A loop of this part of the section's radius in reach is roughness, not a branch: the steps of a
@@ -60,8 +62,14 @@ impl Band {
         }
     }
 
-    /// Floods from `lower` (whose plane's normal points to `upper`) up to `upper`.
-    pub(crate) fn flood(&mut self, mesh: &HalfEdgeMesh, lower: &Front, upper: &Front) -> Verdict {
+    /// Floods from `lower` (whose plane's normal points to `upper`) up to `upper`, over own faces.
+    pub(crate) fn flood(
+        &mut self,
+        mesh: &HalfEdgeMesh,
+        lower: &Front,
+        upper: &Front,
+        is_own: impl Fn(FaceId) -> bool,
+    ) -> Verdict {
         if upper.contour.points.iter().any(|p| lower.plane.height(p) < 0.0)
             || lower.contour.points.iter().any(|p| upper.plane.height(p) >= 0.0)
         {
@@ -77,8 +85,10 @@ impl Band {
         let mut next = 0;
         while let Some(&face) = self.faces.get(next) {
             next += 1;
-            for h in face.half_edges() {
-                let side = Side::new(mesh, h, &lower.plane, &upper.plane);
+            if !is_own(face) {
+                return Verdict::Foreign;
+            }
+            for side in sides(mesh, face, &lower.plane, &upper.plane) {
                 for (over_upper, key) in side.ways_out().into_iter().flatten() {
                     if self.side_stamp[key.index()] >= on_lower {
                         continue;
@@ -93,7 +103,7 @@ impl Band {
                     }
                 }
                 if side.lies_in_band() {
-                    self.reach(mesh.neighbour(h));
+                    self.reach(side.twin.face());
                 }
             }
         }
@@ -189,17 +199,22 @@ struct Side {
     upper: [f64; 2],
 }
 
-impl Side {
-    fn new(mesh: &HalfEdgeMesh, h: HalfEdgeId, lower: &Plane, upper: &Plane) -> Self {
-        let (a, b) = (mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)));
-        Self {
-            half_edge: h,
-            twin: mesh.twin(h),
-            lower: [lower.height(&a), lower.height(&b)],
-            upper: [upper.height(&a), upper.height(&b)],
-        }
-    }
+/// The sides of a triangle against the two planes of a band.
+fn sides(mesh: &HalfEdgeMesh, face: FaceId, lower: &Plane, upper: &Plane) -> [Side; 3] {
+    let [a, b, c] = mesh.corners(face);
+    let heights = |plane: &Plane| [plane.height(&a), plane.height(&b), plane.height(&c)];
+    let (over_lower, over_upper) = (heights(lower), heights(upper));
+    let half_edges = face.half_edges();
+    let side = |from: usize, to: usize| Side {
+        half_edge: half_edges[from],
+        twin: mesh.twin(half_edges[from]),
+        lower: [over_lower[from], over_lower[to]],
+        upper: [over_upper[from], over_upper[to]],
+    };
+    [side(0, 1), side(1, 2), side(2, 0)]
+}
 
+impl Side {
     /// Whether some of the side is above the lower and below the upper plane.
     fn lies_in_band(&self) -> bool {
         let (mut from, mut to) = (0.0f64, 1.0f64);

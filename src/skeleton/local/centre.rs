@@ -9,7 +9,7 @@ use nalgebra::{Point3, Vector3};
 use super::axis::{Axis, all_pass};
 use super::draft::{Draft, HubKind, Run};
 use super::junction::{axes_at, nearest_inside};
-use super::sample::moved;
+use super::sample::{Known, moved};
 use super::trend::Trend;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::Surface;
@@ -75,11 +75,12 @@ pub(crate) fn centre_joints(
     let joints = free_joints(draft, &at);
     joints.iter().for_each(|&hub| draft.hubs[hub].is_centred = true);
     let mut beside = vec![[Point3::origin(); 2]; draft.runs.len()];
+    let mut known: Vec<Known> = draft.runs.iter().map(|_| Known::default()).collect();
     let mut has_moved = vec![true; draft.hubs.len()];
     for _ in 0..TURNS {
-        for (points, run) in beside.iter_mut().zip(&draft.runs) {
+        for ((points, known), run) in beside.iter_mut().zip(&mut known).zip(&draft.runs) {
             if run.hubs.iter().any(|&hub| has_moved[hub]) {
-                *points = beside_hubs(draft, surface, run, step, watch)?;
+                *points = beside_hubs(draft, surface, run, step, known, watch)?;
             }
         }
         has_moved.fill(false);
@@ -120,11 +121,12 @@ fn beside_hubs(
     surface: &Surface,
     run: &Run,
     step: f64,
+    known: &mut Known,
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<[Point3<f64>; 2], SkeletonError> {
     let hubs = run.hubs.map(|h| &draft.hubs[h]);
     let Some(trend) = Trend::of(run) else { return Ok(hubs.map(|h| h.position)) };
-    let points = moved(surface, run, &trend, hubs, step, watch)?.points;
+    let points = moved(surface, run, &trend, hubs, step, known, watch)?.points;
     Ok([points[1], points[points.len() - 2]])
 }
 

@@ -15,12 +15,14 @@ use crate::skeleton::watch::Watch;
 pub(crate) const SWOLLEN: f64 = 1.15;
 
 /// The hubs and the centroids between them, without swollen ones next to joints and without those
-/// a hub has moved past; inside the object.
+/// a hub has moved past; inside the object. `straight` says from which stations the way to the next is
+/// known to be.
 pub(crate) fn base_curve(
     surface: &Surface,
     run: &Run,
     trend: &Trend,
     hubs: [&Hub; 2],
+    straight: &mut Vec<bool>,
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Vec<Point3<f64>>, SkeletonError> {
     let [start, end] = hubs.map(|h| h.position);
@@ -46,9 +48,18 @@ pub(crate) fn base_curve(
     }
     let mut curve = vec![start];
     let stride = (last - first).div_ceil(MOST_ON_CURVE).max(1);
-    curve.extend(run.stations[first..last].iter().step_by(stride).map(|s| s.centroid));
+    straight.resize(n, false);
+    for i in (first..last).step_by(stride) {
+        let is_known = stride == 1 && i > first && straight[i - 1];
+        let is_straight = is_known || go_on(surface, &mut curve, &run.stations[i].centroid, watch)?;
+        curve.push(run.stations[i].centroid);
+        if stride == 1 && i > first {
+            straight[i - 1] = is_straight;
+        }
+    }
+    go_on(surface, &mut curve, &end, watch)?;
     curve.push(end);
-    inner_curve(surface, &curve, watch)
+    Ok(curve)
 }
 
 /// Whether sections next to the hub hold parts of other legs.
@@ -56,19 +67,19 @@ pub(crate) fn is_bend(kind: HubKind) -> bool {
     matches!(kind, HubKind::Joint | HubKind::Knee)
 }
 
-/// The curve with points put in where it would leave the object.
-fn inner_curve(
+/// Puts in points where the way from the end of a curve to the next place would leave the object;
+/// whether none were needed.
+fn go_on(
     surface: &Surface,
-    curve: &[Point3<f64>],
+    curve: &mut Vec<Point3<f64>>,
+    next: &Point3<f64>,
     watch: &mut Watch<'_, impl Observer>,
-) -> Result<Vec<Point3<f64>>, SkeletonError> {
-    let mut inner = vec![curve[0]];
-    for pair in curve.windows(2) {
-        watch.keep_on()?;
-        inner.extend(way_inside(surface, &pair[0], &pair[1], watch)?);
-        inner.push(pair[1]);
-    }
-    Ok(inner)
+) -> Result<bool, SkeletonError> {
+    watch.keep_on()?;
+    let between = way_inside(surface, &curve[curve.len() - 1], next, watch)?;
+    let is_straight = between.is_empty();
+    curve.extend(between);
+    Ok(is_straight)
 }
 
 /// Most pieces of one branch: a branch a thousand radii long has as many, and one that is longer

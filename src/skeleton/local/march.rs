@@ -56,15 +56,6 @@ pub(crate) struct Tube {
 }
 
 impl Tube {
-    /// Length across the fronts, mm: centroids that wander sideways, as those of slant cuts through
-    /// a joint do, come no farther.
-    pub(crate) fn length(&self) -> f64 {
-        self.fronts
-            .windows(2)
-            .map(|w| (w[1].extent.centroid - w[0].extent.centroid).dot(&w[1].plane.normal))
-            .sum()
-    }
-
     /// The front in the middle.
     pub(crate) fn middle(&self) -> &Front {
         &self.fronts[self.fronts.len() / 2]
@@ -86,6 +77,11 @@ const BASE_OF_DIRECTION: f64 = 2.0;
 /// Largest turn of the front in one step, as a cosine: 25°. Sharper is a knee.
 const LARGEST_TURN: f64 = 0.906;
 
+/// A plane that would turn by less than this sine, 0.06°, stays: the centroid of a slant section of a
+/// rod lies on its axis, and the area grows by a millionth. The turns of an arc of forty radii are ten
+/// times as large.
+const SAME_DIRECTION: f64 = 1e-3;
+
 /// Most fronts of one march. At half a radius a step this is a rod of a thousand diameters, longer
 /// than any strut; a needle asks for ever more, each smaller than the last.
 const MOST_FRONTS: usize = 4096;
@@ -104,6 +100,8 @@ pub(crate) struct March<'a> {
     /// Area of design surface that a band passes at least, mm².
     least_band: f64,
     band: Band,
+    /// The contour followed last.
+    contour: Contour,
 }
 
 impl<'a> March<'a> {
@@ -114,6 +112,7 @@ impl<'a> March<'a> {
             claims: Claims::new(&surface.mesh),
             least_band: surface.design_area() / MOST_BANDS.max(surface.mesh.face_count()) as f64,
             band: Band::new(&surface.mesh),
+            contour: Contour::default(),
         }
     }
 
@@ -121,33 +120,47 @@ impl<'a> March<'a> {
         &self.surface.mesh
     }
 
-    /// Marches both ways from a front; claims what it passes.
+    /// Marches both ways from a front and claims what it passes, if it comes `shortest` mm far.
+    ///
+    /// Unless that is nothing, a whole step has to be possible at once, one way or the other.
     pub(crate) fn both_ways(
         &mut self,
         seed: Front,
+        shortest: f64,
         observer: &mut impl Observer,
-    ) -> Result<Tube, SkeletonError> {
+    ) -> Result<Option<Tube>, SkeletonError> {
         let back = self.reversed(&seed);
-        let ahead = self.one_way(seed, observer)?;
-        let mut fronts =
-            back.map(|back| self.one_way(back, observer)).transpose()?.unwrap_or_default();
-        fronts.reverse();
-        fronts.pop();
-        let mut fronts: Vec<Front> = fronts.iter().filter_map(|f| self.reversed(f)).collect();
+        let ahead_first = self.advance(std::slice::from_ref(&seed), 1.0);
+        let mut back_first = None;
+        if shortest > 0.0 && ahead_first.is_err() {
+            let back = back.as_ref().map(std::slice::from_ref);
+            back_first = back.and_then(|back| self.advance(back, 1.0).ok());
+            if back_first.is_none() {
+                return Ok(None);
+            }
+        }
+        let back_faces = back_first.is_some().then(|| self.band.faces.clone());
+        let mark = self.claims.mark();
+        let ahead = self.one_way(seed, Some(ahead_first), observer)?;
+        // What was claimed ahead may stand in the way of the step back.
+        let first = back_first.filter(|_| ahead.len() == 1).map(Ok);
+        if let Some(faces) = back_faces {
+            self.band.faces = faces;
+        }
+        let behind =
+            back.map(|back| self.one_way(back, first, observer)).transpose()?.unwrap_or_default();
+        if length(&ahead, 1) + length(&behind, 0) < shortest {
+            self.claims.take_back(mark);
+            return Ok(None);
+        }
+        let mut fronts: Vec<Front> =
+            behind.iter().skip(1).rev().filter_map(|f| self.reversed(f)).collect();
         fronts.extend(ahead);
-        Ok(Tube { fronts })
-    }
-
-    /// Whether a whole step can be made from a front, ahead or back.
-    pub(crate) fn goes_on(&mut self, front: &Front) -> bool {
-        self.advance(std::slice::from_ref(front), 1.0).is_ok()
-            || self
-                .reversed(front)
-                .is_some_and(|back| self.advance(std::slice::from_ref(&back), 1.0).is_ok())
+        Ok(Some(Tube { fronts }))
     }
 
     /// The same front, looked at from the other side.
-    fn reversed(&self, front: &Front) -> Option<Front> {
+    fn reversed(&mut self, front: &Front) -> Option<Front> {
         let plane = Plane::new(front.plane.point, -front.plane.normal);
         // Points on the plane count as above on either side, so the crossed sides may differ.
         let start =
@@ -155,10 +168,12 @@ impl<'a> March<'a> {
         self.front(plane, start?, |_| true)
     }
 
-    /// Marches from `seed` along its normal; all fronts, the seed first.
+    /// Marches from `seed` along its normal; all fronts, the seed first. The first step may have been
+    /// made already.
     fn one_way(
         &mut self,
         seed: Front,
+        mut first: Option<Result<Front, Stop>>,
         observer: &mut impl Observer,
     ) -> Result<Vec<Front>, SkeletonError> {
         let mut fronts = vec![seed];
@@ -167,7 +182,7 @@ impl<'a> March<'a> {
         // count ends a march towards the tip of a needle, where radii and steps go to nothing.
         while fronts.len() < MOST_FRONTS {
             keep_on(observer)?;
-            match self.advance(&fronts, part) {
+            match first.take().unwrap_or_else(|| self.advance(&fronts, part)) {
                 Ok(front) => {
                     let (lower, upper) = (fronts[fronts.len() - 1].plane, front.plane);
                     self.claims.add(lower, upper, &self.band.faces);
@@ -189,47 +204,67 @@ impl<'a> March<'a> {
         // A band of a rod has no less area than that of a round one.
         let step = part * f64::max(STEP * radius, self.least_band / (TAU * radius));
         let direction = last.plane.normal;
-        let ahead =
-            self.cut_ahead(last, fronts, last.extent.centroid + *direction * step, direction)?;
+        let (plane, ahead) =
+            self.cut_ahead(fronts, last.extent.centroid + *direction * step, direction)?;
         let base = behind(fronts, BASE_OF_DIRECTION * radius);
-        let turned = Unit::try_new(ahead.extent.centroid - base.extent.centroid, 1e-9 * radius)
+        let turned = Unit::try_new(ahead.centroid - base.extent.centroid, 1e-9 * radius)
             .unwrap_or(direction);
         let turned = if fronts.len() < 3 { direction } else { turned };
         if turned.dot(&direction) < LARGEST_TURN {
             return Err(Stop::Bends);
         }
-        let next = self.cut_ahead(last, fronts, ahead.extent.centroid, turned)?;
+        let around = self.box_round(fronts, ahead.centroid, direction);
+        let stays = turned.cross(&direction).norm_squared() <= SAME_DIRECTION * SAME_DIRECTION
+            && self.contour.points.iter().all(|p| around.spans(p));
+        let (plane, extent) =
+            if stays { (plane, ahead) } else { self.cut_ahead(fronts, ahead.centroid, turned)? };
+        let next = Front { plane, contour: self.contour.clone(), extent };
         self.claim_check(last, &next)?;
         Ok(next)
     }
 
-    /// Cuts the surface across `direction` at `centre`, inside the identifier box.
-    fn cut_ahead(
+    /// The identifier box of the step from the last front.
+    fn box_round(
         &self,
-        last: &Front,
         fronts: &[Front],
         centre: nalgebra::Point3<f64>,
         direction: Unit<Vector3<f64>>,
-    ) -> Result<Front, Stop> {
-        let radius = last.extent.radius();
-        let one_behind = behind(fronts, radius);
+    ) -> IdentifierBox {
+        let radius = fronts[fronts.len() - 1].extent.radius();
+        let half_width = self.params.width_ratio * behind(fronts, radius).extent.reach;
+        IdentifierBox::new(centre, direction, half_width, radius)
+    }
+
+    /// Cuts the surface across `direction` at `centre`, inside the identifier box; leaves the contour
+    /// in `self.contour`.
+    fn cut_ahead(
+        &mut self,
+        fronts: &[Front],
+        centre: nalgebra::Point3<f64>,
+        direction: Unit<Vector3<f64>>,
+    ) -> Result<(Plane, Extent), Stop> {
+        let last = &fronts[fronts.len() - 1];
+        let one_behind = behind(fronts, last.extent.radius()).extent.radius();
         let ratio = self.params.width_ratio;
-        let around = IdentifierBox::new(centre, direction, ratio * one_behind.extent.reach, radius);
+        let around = self.box_round(fronts, centre, direction);
         let plane = Plane::new(centre, direction);
         let stride = last.contour.half_edges.len().div_ceil(8).max(1);
+        // Sides of contours that do not fit: where one is met again, so is what does not fit.
+        let mut unfit: Vec<HalfEdgeId> = Vec::new();
         let mut stop = Stop::Ends;
         for h in last.contour.half_edges.iter().step_by(stride) {
             let Some(start) = climb(self.mesh(), &last.plane, &plane, h.face()) else { continue };
-            let Some(front) = self.front(plane, start, |p| around.spans(p)) else {
-                stop = Stop::Widens;
-                continue;
-            };
-            let growth = front.extent.radius() / one_behind.extent.radius();
-            if growth < 1.0 / ratio || growth > ratio {
-                stop = Stop::Widens;
+            if unfit.contains(&start) {
                 continue;
             }
-            return Ok(front);
+            if let Some(extent) = self.follow(&plane, start, |p| around.spans(p)) {
+                let growth = extent.radius() / one_behind;
+                if growth >= 1.0 / ratio && growth <= ratio {
+                    return Ok((plane, extent));
+                }
+            }
+            stop = Stop::Widens;
+            unfit.extend(&self.contour.half_edges);
         }
         Err(stop)
     }
@@ -240,16 +275,13 @@ impl<'a> March<'a> {
         if h.iter().zip(p).any(|(h, p)| self.claims.holds(h.face(), p)) {
             return Err(Stop::Passed);
         }
-        match self.band.flood(self.mesh(), last, next) {
-            Verdict::Splits => return Err(Stop::Splits),
-            Verdict::FrontsCross => return Err(Stop::Bends),
-            Verdict::Tube => {}
-        }
         let labels = &self.surface.labels;
-        if self.band.faces.iter().any(|f| !labels.is_design(*f)) {
-            return Err(Stop::Interface);
+        match self.band.flood(self.mesh(), last, next, |f| labels.is_design(f)) {
+            Verdict::Splits => Err(Stop::Splits),
+            Verdict::FrontsCross => Err(Stop::Bends),
+            Verdict::Foreign => Err(Stop::Interface),
+            Verdict::Tube => Ok(()),
         }
-        Ok(())
     }
 
     /// Whether a front lies on unpassed design surface only.
@@ -261,18 +293,39 @@ impl<'a> March<'a> {
 
     /// The front over the crossed side `start`, if it encloses material and every point passes.
     pub(crate) fn front(
-        &self,
+        &mut self,
         plane: Plane,
         start: HalfEdgeId,
         keep_on: impl FnMut(&nalgebra::Point3<f64>) -> bool,
     ) -> Option<Front> {
-        let mut contour = Contour::default();
-        if !follow(self.mesh(), &plane, start, &mut contour, keep_on) || contour.points.len() < 3 {
+        let extent = self.follow(&plane, start, keep_on)?;
+        Some(Front { plane, contour: self.contour.clone(), extent })
+    }
+
+    /// Follows the contour over the crossed side `start` into `self.contour`; what it encloses, if
+    /// that is material and every point passes.
+    fn follow(
+        &mut self,
+        plane: &Plane,
+        start: HalfEdgeId,
+        keep_on: impl FnMut(&nalgebra::Point3<f64>) -> bool,
+    ) -> Option<Extent> {
+        let (mesh, contour) = (&self.surface.mesh, &mut self.contour);
+        if !follow(mesh, plane, start, contour, keep_on) || contour.points.len() < 3 {
             return None;
         }
-        let extent = Extent::of(&contour, &plane);
-        (extent.area > 0.0).then_some(Front { plane, contour, extent })
+        let extent = Extent::of(contour, plane);
+        (extent.area > 0.0).then_some(extent)
     }
+}
+
+/// Length of a march across its fronts, mm: centroids that wander sideways, as those of slant cuts
+/// through a joint do, come no farther. `which` of the two fronts of a step says what is across.
+fn length(fronts: &[Front], which: usize) -> f64 {
+    fronts
+        .windows(2)
+        .map(|w| (w[1].extent.centroid - w[0].extent.centroid).dot(&w[which].plane.normal))
+        .sum()
 }
 
 /// The front at least `distance` behind the last one, or the first.

@@ -50,9 +50,17 @@ pub(crate) fn patches(
 ) -> Patches {
     let cutting = Cutting::new(mesh, cuts);
     let mut joined = Joined::new(cutting.regions);
-    for h in mesh.faces().filter(|f| is_design(*f)).flat_map(|f| f.half_edges()) {
-        let t = mesh.twin(h);
-        if h < t && is_design(t.face()) {
+    for f in mesh.faces().filter(|f| is_design(*f)) {
+        let is_whole = cutting.cut_face(f).is_none();
+        for h in f.half_edges() {
+            let t = mesh.twin(h);
+            if h > t || !is_design(t.face()) {
+                continue;
+            }
+            if is_whole {
+                joined.join(f.0, cutting.region(mesh, t, 0));
+                continue;
+            }
             for part in 0..cutting.parts(mesh, h) {
                 joined.join(cutting.region(mesh, h, part), cutting.region_beyond(mesh, h, part));
             }
@@ -60,7 +68,7 @@ pub(crate) fn patches(
     }
     let mut tally =
         Tally { of_root: vec![NONE; cutting.regions as usize], all: Vec::new(), euler: Vec::new() };
-    count_cells(mesh, &is_design, &cutting, &mut joined, &mut tally);
+    let of_face = count_cells(mesh, &is_design, &cutting, &mut joined, &mut tally);
     for (c, contour) in cuts.iter().enumerate() {
         let (above, below) = cutting.sides_of_cut(mesh, contour, c);
         for (region, side) in [(above, CutSide::Above), (below, CutSide::Below)] {
@@ -77,49 +85,59 @@ pub(crate) fn patches(
         let borders = (patch.cuts.len() + patch.interfaces.len()) as i64;
         patch.genus = ((2 - borders - euler) / 2).max(0) as usize;
     }
-    let of_face = mesh
-        .faces()
-        .map(|f| {
-            let whole = is_design(f) && cutting.cut_face(f).is_none();
-            whole.then(|| tally.piece(&mut joined, f.0) as u32)
-        })
-        .collect();
     Patches { all: tally.all, of_face }
 }
 
-/// Adds V − E + F of the open cells of every piece.
+/// Adds V − E + F of the open cells of every piece; the piece of every whole design face.
 fn count_cells(
     mesh: &HalfEdgeMesh,
     is_design: &impl Fn(FaceId) -> bool,
     cutting: &Cutting,
     joined: &mut Joined,
     tally: &mut Tally,
-) {
+) -> Vec<Option<u32>> {
+    let mut of_face = vec![None; mesh.face_count()];
     let mut on_border = vec![false; mesh.positions().len()];
     let mut inner_at: Vec<u32> = vec![NONE; mesh.positions().len()];
-    for h in mesh.faces().filter(|f| is_design(*f)).flat_map(|f| f.half_edges()) {
-        inner_at[mesh.origin(h).index()] = h.0;
-        let t = mesh.twin(h);
-        if !is_design(t.face()) {
-            on_border[mesh.origin(h).index()] = true;
-            on_border[mesh.target(h).index()] = true;
-        } else if h < t {
-            for part in 0..cutting.parts(mesh, h) {
-                tally.add(joined, cutting.region(mesh, h, part), -1);
+    for f in mesh.faces().filter(|f| is_design(*f)) {
+        // The cells of a whole face are all of one piece; those of a cut one are asked singly.
+        let whole = match cutting.cut_face(f) {
+            None => {
+                let piece = tally.piece(joined, f.0);
+                tally.euler[piece] += 1;
+                Some(piece)
+            }
+            Some(cut) => {
+                cut.own_regions().for_each(|r| tally.add(joined, r, 1));
+                None
+            }
+        };
+        of_face[f.index()] = whole.map(|piece| piece as u32);
+        for h in f.half_edges() {
+            inner_at[mesh.origin(h).index()] = h.0;
+            let t = mesh.twin(h);
+            if !is_design(t.face()) {
+                on_border[mesh.origin(h).index()] = true;
+                on_border[mesh.target(h).index()] = true;
+            } else if h < t {
+                match whole {
+                    Some(piece) => tally.euler[piece] -= 1,
+                    None => (0..cutting.parts(mesh, h))
+                        .for_each(|part| tally.add(joined, cutting.region(mesh, h, part), -1)),
+                }
             }
         }
     }
     for (v, &h) in inner_at.iter().enumerate() {
         if h != NONE && !on_border[v] {
-            tally.add(joined, cutting.region(mesh, HalfEdgeId(h), 0), 1);
+            let h = HalfEdgeId(h);
+            match of_face[h.face().index()] {
+                Some(piece) => tally.euler[piece as usize] += 1,
+                None => tally.add(joined, cutting.region(mesh, h, 0), 1),
+            }
         }
     }
-    for f in mesh.faces().filter(|f| is_design(*f)) {
-        match cutting.cut_face(f) {
-            None => tally.add(joined, f.0, 1),
-            Some(cut) => cut.own_regions().for_each(|r| tally.add(joined, r, 1)),
-        }
-    }
+    of_face
 }
 
 /// No number.

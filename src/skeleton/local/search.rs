@@ -200,16 +200,9 @@ fn try_front(
     observer: &mut impl Observer,
 ) -> Result<(), SkeletonError> {
     keep_on(observer)?;
-    if !march.is_free(&front) || (look.shortest > 0.0 && !march.goes_on(&front)) {
-        return Ok(());
-    }
-    let shortest = look.shortest * front.extent.radius();
-    let mark = march.claims.mark();
-    let tube = march.both_ways(front, observer)?;
-    if tube.length() < shortest {
-        march.claims.take_back(mark);
-    } else {
-        tubes.push(tube);
+    if march.is_free(&front) {
+        let shortest = look.shortest * front.extent.radius();
+        tubes.extend(march.both_ways(front, shortest, observer)?);
     }
     Ok(())
 }

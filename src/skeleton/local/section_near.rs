@@ -1,10 +1,10 @@
 //! The section of a run at a point near one of its known sections.
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::Point3;
 
 use super::curve::way_to_each;
 use super::draft::{Run, Station};
-use crate::mesh::contour::{Extent, Plane, closed_round, contour_round, entry};
+use crate::mesh::contour::{Contour, Extent, Plane, closed_round, contour_round, entry};
 use crate::mesh::id::HalfEdgeId;
 use crate::mesh::{HalfEdgeMesh, Surface};
 
@@ -54,25 +54,26 @@ impl<'a> Stations<'a> {
 /// Rounding of a way, relative to its length; far more than that of thousands of additions.
 const ROUNDING: f64 = 1e-9;
 
-/// The section of the branch round a point, of design faces only; `part` 0..1 of the way along the
-/// run the point lies about.
+/// The section of the branch round the point of a plane, of design faces only; `part` 0..1 of the way
+/// along the run the point lies about. Its contour is left in `contour`.
 pub(crate) fn section_round(
     surface: &Surface,
     stations: &Stations<'_>,
-    point: &Point3<f64>,
-    normal: Unit<Vector3<f64>>,
+    plane: &Plane,
     part: f64,
+    contour: &mut Contour,
 ) -> Option<Extent> {
-    let plane = Plane::new(*point, normal);
-    let nearest = stations.nearest(point, part)?;
+    let nearest = stations.nearest(&plane.point, part)?;
     let reach = REACH * nearest.reach;
-    let contour = approach(&surface.mesh, &plane, nearest.side)
-        .and_then(|start| closed_round(&surface.mesh, &plane, start, reach))
-        .or_else(|| contour_round(&surface.mesh, &surface.tree, &plane, reach))?;
+    let is_near = approach(&surface.mesh, plane, nearest.side)
+        .is_some_and(|start| closed_round(&surface.mesh, plane, start, reach, contour));
+    if !is_near {
+        *contour = contour_round(&surface.mesh, &surface.tree, plane, reach)?;
+    }
     if contour.half_edges.iter().any(|h| !surface.labels.is_design(h.face())) {
         return None;
     }
-    let extent = Extent::of(&contour, &plane);
+    let extent = Extent::of(contour, plane);
     (extent.area > 0.0).then_some(extent)
 }
 

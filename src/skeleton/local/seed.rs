@@ -26,7 +26,7 @@ const REACH_OVER_BEST: f64 = 1.5;
 
 impl March<'_> {
     /// The section across the rod at a place, or `None` where no section closes within `limit` mm.
-    pub(crate) fn section_at(&self, place: &Place, limit: f64) -> Option<Front> {
+    pub(crate) fn section_at(&mut self, place: &Place, limit: f64) -> Option<Front> {
         let normal = Unit::try_new(self.surface.mesh.doubled_area_vector(place.face), 0.0)?;
         let (u, v) = tangents(&self.surface.mesh, place.face, &normal);
         let mut best: Option<Front> = None;
@@ -43,7 +43,7 @@ impl March<'_> {
         best.map(|front| self.turned_across(place, front, limit))
     }
 
-    fn turned_across(&self, place: &Place, mut front: Front, limit: f64) -> Front {
+    fn turned_across(&mut self, place: &Place, mut front: Front, limit: f64) -> Front {
         for _ in 0..TURNS {
             let Some(axis) = axis_of(&self.surface.mesh, &front.contour) else { break };
             let axis = if axis.dot(&front.plane.normal) < 0.0 { -axis } else { axis };
@@ -58,7 +58,7 @@ impl March<'_> {
     }
 
     fn section_through(
-        &self,
+        &mut self,
         place: &Place,
         direction: Unit<Vector3<f64>>,
         limit: f64,
@@ -86,7 +86,8 @@ fn tangents(
 /// On a rod they all lie across the axis; on a cone they lean by the same angle, hence "vary".
 fn axis_of(mesh: &HalfEdgeMesh, contour: &Contour) -> Option<Unit<Vector3<f64>>> {
     let mut sum = Vector3::zeros();
-    let mut squares = Matrix3::zeros();
+    // xx, xy, xz, yy, yz, zz
+    let mut squares = [0.0; 6];
     let mut weight = 0.0;
     let n = contour.points.len();
     for i in 0..n {
@@ -97,12 +98,17 @@ fn axis_of(mesh: &HalfEdgeMesh, contour: &Contour) -> Option<Unit<Vector3<f64>>>
             continue;
         };
         sum += normal * length;
-        squares += normal * normal.transpose() * length;
+        let [x, y, z] = normal.into();
+        for (sum, product) in squares.iter_mut().zip([x * x, x * y, x * z, y * y, y * z, z * z]) {
+            *sum += product * length;
+        }
         weight += length;
     }
     if weight <= 0.0 {
         return None;
     }
+    let [xx, xy, xz, yy, yz, zz] = squares;
+    let squares = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     let spread = squares / weight - (sum / weight) * (sum / weight).transpose();
     let eigen = SymmetricEigen::new(spread);
     let least = eigen.eigenvalues.imin();
