@@ -99,8 +99,8 @@ impl<F: FnMut(FaceId) -> bool> Iterator for Walk<'_, F> {
 
 /// Where the walk over each shell starts, the shell that reaches farthest out first.
 fn starts(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> Vec<HalfEdgeId> {
-    let ruler = Ruler::of(mesh);
     let count = shell_of_face.iter().max().map_or(0, |m| *m as usize + 1);
+    let ruler = Ruler::of(mesh, shell_of_face, count);
     let mut reach = vec![f64::NEG_INFINITY; count];
     let all = || mesh.faces().flat_map(FaceId::half_edges);
     let shell = |h: HalfEdgeId| shell_of_face[h.face().index()] as usize;
@@ -120,27 +120,34 @@ fn starts(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> Vec<HalfEdgeId> {
     starts
 }
 
-/// Measures from the middle of a surface.
+/// Measures from the middle of each shell, so that no other body decides how one is numbered.
 struct Ruler<'a> {
     mesh: &'a HalfEdgeMesh,
-    /// Distance of every point from the middle, mm.
+    /// Distance of every point from the middle of its shell, mm.
     distances: Vec<f64>,
     /// Lengths that differ by less are equal, mm.
     equal: f64,
 }
 
 impl<'a> Ruler<'a> {
-    fn of(mesh: &'a HalfEdgeMesh) -> Self {
+    fn of(mesh: &'a HalfEdgeMesh, shell_of_face: &[u32], shells: usize) -> Self {
         let origin = mesh.positions().first().copied().unwrap_or_else(Point3::origin);
-        let (mut area, mut moment) = (0.0, Vector3::zeros());
+        let mut sums = vec![(0.0, Vector3::zeros()); shells];
         for f in mesh.faces() {
             let [a, b, c] = mesh.corners(f).map(|p| p - origin);
             let weight = mesh.face_area(f);
-            area += weight;
-            moment += (a + b + c) * (weight / 3.0);
+            let (area, moment) = &mut sums[shell_of_face[f.index()] as usize];
+            *area += weight;
+            *moment += (a + b + c) * (weight / 3.0);
         }
-        let centre = if area > 0.0 { origin + moment / area } else { origin };
-        let distances: Vec<f64> = mesh.positions().iter().map(|p| (p - centre).norm()).collect();
+        let mut distances = vec![0.0; mesh.positions().len()];
+        for f in mesh.faces() {
+            let (area, moment) = sums[shell_of_face[f.index()] as usize];
+            let centre = if area > 0.0 { origin + moment / area } else { origin };
+            for v in mesh.triangles()[f.index()] {
+                distances[v as usize] = (mesh.positions()[v as usize] - centre).norm();
+            }
+        }
         let size = distances.iter().copied().fold(0.0, f64::max);
         Self { mesh, distances, equal: EQUAL * size }
     }
