@@ -11,6 +11,8 @@
 //! Every triangle meets the band in a convex piece, so going from triangle to triangle over the
 //! parts of their sides that lie in the band floods it exactly, however long the triangles are.
 
+use nalgebra::Point3;
+
 use crate::mesh::HalfEdgeMesh;
 use crate::mesh::contour::{Contour, Extent, Plane, follow};
 use crate::mesh::id::{FaceId, HalfEdgeId};
@@ -88,7 +90,13 @@ impl Band {
             if !is_own(face) {
                 return Verdict::Foreign;
             }
-            for side in sides(mesh, face, &lower.plane, &upper.plane) {
+            let heights = heights(mesh, face, &lower.plane, &upper.plane);
+            if heights.iter().all(|[lower, upper]| *lower >= 0.0 && *upper < 0.0) {
+                // Most triangles of fine meshes lie in the band as a whole.
+                face.half_edges().into_iter().for_each(|h| self.reach(mesh.neighbour(h)));
+                continue;
+            }
+            for side in sides(mesh, face, heights) {
                 for (over_upper, key) in side.ways_out().into_iter().flatten() {
                     if self.side_stamp[key.index()] >= on_lower {
                         continue;
@@ -160,7 +168,7 @@ fn bump_closes(
     plane: &Plane,
     beyond_is_above: bool,
     contour: &Contour,
-    near: &nalgebra::Point3<f64>,
+    near: &Point3<f64>,
     rough: f64,
 ) -> bool {
     let is_beyond =
@@ -199,17 +207,20 @@ struct Side {
     upper: [f64; 2],
 }
 
-/// The sides of a triangle against the two planes of a band.
-fn sides(mesh: &HalfEdgeMesh, face: FaceId, lower: &Plane, upper: &Plane) -> [Side; 3] {
+/// Heights of the corners of a triangle over the lower and the upper plane of a band.
+fn heights(mesh: &HalfEdgeMesh, face: FaceId, lower: &Plane, upper: &Plane) -> [[f64; 2]; 3] {
     let [a, b, c] = mesh.corners(face);
-    let heights = |plane: &Plane| [plane.height(&a), plane.height(&b), plane.height(&c)];
-    let (over_lower, over_upper) = (heights(lower), heights(upper));
+    let over = |p: &Point3<f64>| [lower.height(p), upper.height(p)];
+    [over(&a), over(&b), over(&c)]
+}
+
+/// The sides of a triangle, given the heights of its corners.
+fn sides(mesh: &HalfEdgeMesh, face: FaceId, heights: [[f64; 2]; 3]) -> [Side; 3] {
     let half_edges = face.half_edges();
-    let side = |from: usize, to: usize| Side {
-        half_edge: half_edges[from],
-        twin: mesh.twin(half_edges[from]),
-        lower: [over_lower[from], over_lower[to]],
-        upper: [over_upper[from], over_upper[to]],
+    let side = |from: usize, to: usize| {
+        let ([a, c], [b, d]) = (heights[from], heights[to]);
+        let half_edge = half_edges[from];
+        Side { half_edge, twin: mesh.twin(half_edge), lower: [a, b], upper: [c, d] }
     };
     [side(0, 1), side(1, 2), side(2, 0)]
 }

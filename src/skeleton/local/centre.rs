@@ -75,7 +75,7 @@ pub(crate) fn centre_joints(
     let joints = free_joints(draft, &at);
     joints.iter().for_each(|&hub| draft.hubs[hub].is_centred = true);
     let mut beside = vec![[Point3::origin(); 2]; draft.runs.len()];
-    let mut known: Vec<Known> = draft.runs.iter().map(|_| Known::default()).collect();
+    let mut known: Vec<Known> = draft.runs.iter().map(|_| Known::of_ends()).collect();
     let mut has_moved = vec![true; draft.hubs.len()];
     for _ in 0..TURNS {
         for ((points, known), run) in beside.iter_mut().zip(&mut known).zip(&draft.runs) {

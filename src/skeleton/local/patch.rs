@@ -113,11 +113,11 @@ fn count_cells(
             }
         };
         of_face[f.index()] = whole.map(|piece| piece as u32);
-        for h in f.half_edges() {
-            inner_at[mesh.origin(h).index()] = h.0;
+        for (h, corner) in f.half_edges().into_iter().zip(mesh.triangles()[f.index()]) {
+            inner_at[corner as usize] = h.0;
             let t = mesh.twin(h);
             if !is_design(t.face()) {
-                on_border[mesh.origin(h).index()] = true;
+                on_border[corner as usize] = true;
                 on_border[mesh.target(h).index()] = true;
             } else if h < t {
                 match whole {

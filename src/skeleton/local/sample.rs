@@ -81,6 +81,15 @@ pub(crate) struct Known {
     cuts: Vec<Option<Cut>>,
     /// From which stations the straight way to the next stays inside.
     straight: Vec<bool>,
+    /// Whether just the points next to the hubs are wanted.
+    ends_only: bool,
+}
+
+impl Known {
+    /// Nothing yet of a run of which just the points next to the hubs are wanted.
+    pub(crate) fn of_ends() -> Self {
+        Self { ends_only: true, ..Self::default() }
+    }
 }
 
 /// A plane hardly differs while it has moved by less than this part of the radius and turned by less
@@ -96,7 +105,7 @@ pub(crate) fn moved(
     trend: &Trend,
     hubs: [&Hub; 2],
     step: f64,
-    Known { cuts, straight }: &mut Known,
+    Known { cuts, straight, ends_only }: &mut Known,
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Moved, SkeletonError> {
     let curve = base_curve(surface, run, trend, hubs, straight, watch)?;
@@ -111,11 +120,16 @@ pub(crate) fn moved(
     let mut shares = vec![0.0; last + 1];
     let stations = Stations::of(run);
     let mut contour = Contour::default();
-    for _ in 0..ROUNDS {
+    for left in (0..ROUNDS).rev() {
         // The same number of points at equal distances.
         let old = Polyline::through(&points).spaced(last);
         for i in 1..last {
             watch.keep_on()?;
+            // In every round that is left a point moves those beside it, and is spaced anew.
+            if *ends_only && i.min(last - i) > 1 + 2 * left {
+                points[i] = old[i];
+                continue;
+            }
             let Some(normal) = Unit::try_new(old[i + 1] - old[i - 1], 0.0) else { continue };
             let part = i as f64 / last as f64;
             let wanted = trend.at(part);
