@@ -27,6 +27,11 @@ pub(crate) fn rounded_figures(x: f64, decimals: usize) -> f64 {
     if is_too_small(x, decimals) {
         return format!("{x:.2e}").parse().unwrap_or(x);
     }
+    rounded(x, decimals)
+}
+
+/// A number rounded to so many decimals.
+pub(crate) fn rounded(x: f64, decimals: usize) -> f64 {
     let scale = 10f64.powi(decimals as i32);
     // Never −0.
     (x * scale).round() / scale + 0.0

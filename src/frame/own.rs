@@ -31,15 +31,15 @@ impl<'a> Making<'a> {
             found.filter(|s| self.is_own(s)).collect()
         };
         let along = own(&piece.points);
+        if !along.is_empty() || !piece.passes.is_empty() {
+            return along;
+        }
         let branch = &self.skeleton.branches[piece.branch].points;
         let place = |p: Option<&u32>| branch.iter().position(|q| Some(q) == p);
         let (Some(first), Some(last)) = (place(piece.points.first()), place(piece.points.last()))
         else {
             return along;
         };
-        if !along.is_empty() || !piece.passes.is_empty() {
-            return along;
-        }
         let (before, after) = (own(&branch[..first]), own(&branch[last + 1..]));
         let before = &before[before.len().saturating_sub(BORROWED)..];
         before.iter().chain(after.iter().take(BORROWED)).copied().collect()
@@ -48,7 +48,7 @@ impl<'a> Making<'a> {
     /// Whether a section is that of the branch alone: not much larger than the trend of the branch,
     /// which the radius of the point follows where other branches swell the section.
     fn is_own(&self, section: &Section) -> bool {
-        section.radius() < SWALLOWED.sqrt() * self.skeleton.points[section.point as usize].radius
+        !is_swallowed(section, self.skeleton.points[section.point as usize].radius)
     }
 
     /// What the sections of a piece say, in axes turned to nothing in particular.
@@ -62,7 +62,7 @@ impl<'a> Making<'a> {
     /// other branches; elsewhere it is only thick. `radius` is that of the piece.
     pub(super) fn own(&self, piece: &Piece, radius: f64, station: &BeamStation) -> f64 {
         let Some(section) = &self.sections[station.point as usize] else { return 0.0 };
-        let is_swallowed = section.radius() > SWALLOWED.sqrt() * radius;
+        let is_swallowed = is_swallowed(section, radius);
         let near_junction = piece.ends.iter().any(|&n| {
             let node = &self.nodes[n];
             let thickest = if is_swallowed { self.thickest_at(n) } else { 0.0 };
@@ -77,6 +77,11 @@ impl<'a> Making<'a> {
         let there = self.pieces.iter().filter(|p| p.ends.contains(&node));
         there.map(|p| self.branch_radius(p)).fold(0.0, f64::max)
     }
+}
+
+/// Whether a section is so much larger than a radius tells that it holds more of other branches.
+fn is_swallowed(section: &Section, radius: f64) -> bool {
+    section.radius() > SWALLOWED.sqrt() * radius
 }
 
 #[cfg(test)]

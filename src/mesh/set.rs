@@ -48,10 +48,13 @@ impl Labels {
     }
 
     fn clean(&mut self, mesh: &HalfEdgeMesh, non_design: &mut [bool]) {
-        let typical = typical_area(&Border::all(mesh, non_design));
+        let mut borders = Border::all(mesh, non_design);
+        let typical = typical_area(&borders);
         // Twice: a speck may hold a speck.
-        for _ in 0..2 {
-            let borders = Border::all(mesh, non_design);
+        for round in 0..2 {
+            if round > 0 {
+                borders = Border::all(mesh, non_design);
+            }
             let patches = patches(mesh, non_design);
             let lumps = lumps(&borders, &patches, mesh.face_count());
             for (patch, lump) in patches.iter().zip(lumps) {

@@ -104,8 +104,8 @@ impl Shells {
         crossed.chunk_by(|a, b| a == b).filter(|c| c.len() % 2 == 1).map(|c| c[0]).collect()
     }
 
-    fn boxes(&self, mesh: &HalfEdgeMesh) -> Vec<Extent> {
-        let mut boxes = vec![Extent::EMPTY; self.all.len()];
+    fn boxes(&self, mesh: &HalfEdgeMesh) -> Vec<Bounds> {
+        let mut boxes = vec![Bounds::EMPTY; self.all.len()];
         for face in mesh.faces() {
             let shell = self.of_face[face.index()] as usize;
             mesh.corners(face).iter().for_each(|p| boxes[shell].add(p));
@@ -134,12 +134,12 @@ const SAMPLES: usize = 64;
 
 /// The box round a shell.
 #[derive(Clone, Copy)]
-struct Extent {
+struct Bounds {
     least: Point3<f64>,
     most: Point3<f64>,
 }
 
-impl Extent {
+impl Bounds {
     const EMPTY: Self = Self {
         least: Point3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
         most: Point3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),

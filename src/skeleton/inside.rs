@@ -46,16 +46,17 @@ pub(crate) fn is_inside(tree: &TriangleTree, a: &Point3<f64>, b: &Point3<f64>) -
 /// Points between `a` and `b` over which the way stays inside; empty when the straight way does,
 /// and as good as possible when none is found.
 pub(crate) fn way_inside(
-    Surface { mesh, tree, .. }: &Surface,
+    surface: &Surface,
     a: &Point3<f64>,
     b: &Point3<f64>,
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Vec<Point3<f64>>, SkeletonError> {
+    let Surface { mesh, tree, .. } = surface;
     let mut halved = Vec::new();
     if !tree.is_crossed_by(a, b) {
         return Ok(halved);
     }
-    halve_crossed(mesh, tree, a, b, HALVINGS, &mut halved);
+    halve(surface, a, b, HALVINGS, &mut halved);
     halved.push(*b);
     let (mut way, mut at) = (Vec::new(), *a);
     for next in halved {
@@ -71,32 +72,24 @@ pub(crate) fn way_inside(
     Ok(way)
 }
 
+/// Halves a way that leaves the object at the middles of walls, and the halves that still do.
 fn halve(
-    mesh: &HalfEdgeMesh,
-    tree: &TriangleTree,
+    surface: &Surface,
     a: &Point3<f64>,
     b: &Point3<f64>,
     left: usize,
     way: &mut Vec<Point3<f64>>,
 ) {
-    if left > 0 && tree.is_crossed_by(a, b) {
-        halve_crossed(mesh, tree, a, b, left, way);
-    }
-}
-
-/// Halves a way that leaves the object.
-fn halve_crossed(
-    mesh: &HalfEdgeMesh,
-    tree: &TriangleTree,
-    a: &Point3<f64>,
-    b: &Point3<f64>,
-    left: usize,
-    way: &mut Vec<Point3<f64>>,
-) {
+    let Surface { mesh, tree, .. } = surface;
     let Some(middle) = middle_of_wall(mesh, tree, &nalgebra::center(a, b)) else { return };
-    halve(mesh, tree, a, &middle, left - 1, way);
+    let halve_on = |from: &Point3<f64>, to: &Point3<f64>, way: &mut Vec<Point3<f64>>| {
+        if left > 1 && tree.is_crossed_by(from, to) {
+            halve(surface, from, to, left - 1, way);
+        }
+    };
+    halve_on(a, &middle, way);
     way.push(middle);
-    halve(mesh, tree, &middle, b, left - 1, way);
+    halve_on(&middle, b, way);
 }
 
 /// The middle of the material nearest to a point: half-way through the wall behind its nearest

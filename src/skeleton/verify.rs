@@ -1,7 +1,9 @@
 //! Holds a skeleton against what always has to hold: inside the object, same topology.
 
+use nalgebra::Point3;
+
 use super::error::{SkeletonError, keep_on};
-use super::graph::{PointKind, SkeletalPoint, Skeleton};
+use super::graph::{PointKind, Skeleton};
 use super::local::patch::patches;
 use crate::finding::{Finding, FindingKind};
 use crate::mesh::{InterfaceKind, Surface};
@@ -49,18 +51,12 @@ fn points_outside(
     skeleton: &Skeleton,
     observer: &mut impl Observer,
 ) -> Result<Option<Finding>, SkeletonError> {
-    let (mut first, mut count) = (None, 0);
-    for SkeletalPoint { position, .. } in &skeleton.points {
-        keep_on(observer)?;
-        if !surface.tree.contains(position) {
-            first.get_or_insert(*position);
-            count += 1;
-        }
-    }
-    Ok(first.map(|first| {
-        let lie = counted(count, "skeletal point lies", "skeletal points lie");
-        Finding::breach(FindingKind::Outside, Some(first), format!("{lie} outside the object"))
-    }))
+    let places = skeleton.points.iter().map(|p| {
+        let is_outside = !surface.tree.contains(&p.position);
+        is_outside.then_some(p.position)
+    });
+    let lie = ["skeletal point lies outside the object", "skeletal points lie outside the object"];
+    outside(places, lie, observer)
 }
 
 fn segments_outside(
@@ -68,20 +64,31 @@ fn segments_outside(
     skeleton: &Skeleton,
     observer: &mut impl Observer,
 ) -> Result<Option<Finding>, SkeletonError> {
-    let (mut first, mut count) = (None, 0);
-    for segment in skeleton.segments() {
-        keep_on(observer)?;
+    let places = skeleton.segments().map(|segment| {
         let [a, b] = segment.map(|p| skeleton.position(p));
-        if surface.tree.is_crossed_by(&a, &b) {
-            first.get_or_insert(nalgebra::center(&a, &b));
+        surface.tree.is_crossed_by(&a, &b).then(|| nalgebra::center(&a, &b))
+    });
+    let leave =
+        ["segment of the skeleton leaves the object", "segments of the skeleton leave the object"];
+    outside(places, leave, observer)
+}
+
+/// A breach with the place of the first of those that lie outside; `words` for one and for many.
+fn outside(
+    places: impl Iterator<Item = Option<Point3<f64>>>,
+    words: [&str; 2],
+    observer: &mut impl Observer,
+) -> Result<Option<Finding>, SkeletonError> {
+    let (mut first, mut count) = (None, 0);
+    for place in places {
+        keep_on(observer)?;
+        if let Some(place) = place {
+            first.get_or_insert(place);
             count += 1;
         }
     }
-    Ok(first.map(|first| {
-        let leave = ["segment of the skeleton leaves", "segments of the skeleton leave"];
-        let leave = counted(count, leave[0], leave[1]);
-        Finding::breach(FindingKind::Outside, Some(first), format!("{leave} the object"))
-    }))
+    let text = counted(count, words[0], words[1]);
+    Ok(first.map(|_| Finding::breach(FindingKind::Outside, first, text)))
 }
 
 fn topology(surface: &Surface, skeleton: &Skeleton) -> Option<Finding> {

@@ -7,7 +7,7 @@ use crate::frame::{Beam, Frame};
 use crate::joint::{Alike, CutBeam, Joints};
 use crate::output::assembly::mark;
 use crate::section::matching::folded_angle;
-use crate::wording::rounded_figures;
+use crate::wording::{rounded, rounded_figures};
 
 /// A kind of piece. Lengths in mm, angles in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -128,10 +128,4 @@ fn piece(beam: &Beam, cut: &CutBeam, volume: f64, params: &CutListParams) -> Pie
         ),
         branches: Vec::new(),
     }
-}
-
-fn rounded(x: f64, digits: i32) -> f64 {
-    let scale = 10f64.powi(digits);
-    // Never −0.
-    (x * scale).round() / scale + 0.0
 }

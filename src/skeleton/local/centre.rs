@@ -44,19 +44,20 @@ pub(crate) fn is_centred(draft: &Draft, junctions: Junctions) -> (bool, Option<F
             let at = draft.incidences();
             let joints = free_joints(draft, &at);
             let is_apart = |&&hub: &&usize| is_apart(draft, &at[hub], hub);
-            let apart = joints.iter().filter(is_apart).count();
-            let is_centred = apart > 0 && apart as f64 >= OFTEN * joints.len() as f64;
-            let first = joints.iter().find(is_apart).map(|&hub| draft.hubs[hub].position);
-            (is_centred, is_centred.then(|| no_straight_bars(apart, joints.len(), first)))
+            let apart: Vec<&usize> = joints.iter().filter(is_apart).collect();
+            let [first, ..] = apart[..] else { return (false, None) };
+            let is_often = apart.len() as f64 >= OFTEN * joints.len() as f64;
+            let place = draft.hubs[*first].position;
+            (is_often, is_often.then(|| no_straight_bars(apart.len(), joints.len(), place)))
         }
     }
 }
 
-fn no_straight_bars(apart: usize, joints: usize, first: Option<Point3<f64>>) -> Finding {
+fn no_straight_bars(apart: usize, joints: usize, first: Point3<f64>) -> Finding {
     let of = counted(joints, "junction", "junctions");
     Finding::note(
         FindingKind::CentredJunctions,
-        first,
+        Some(first),
         format!(
             "at {apart} of {of} the axes of the branches do not meet: junctions lie in the middle of \
              the material (choose with --junctions)"

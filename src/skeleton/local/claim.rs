@@ -129,18 +129,16 @@ impl<'a> Claims<'a> {
         if before.is_none() && self.chain_is_short(next) {
             return NONE;
         }
-        let (mut low, mut high) = Side::of(self.mesh, face).between(lower, upper);
+        let (low, high) = Side::of(self.mesh, face).between(lower, upper);
         let mut leap = Leap { to: next, rank: before.map_or(0, |b| b.rank) + 1, low, high };
         if let Some(before) = before
-            && let rank = leap_of(before.to).map_or(0, |l| l.rank)
-            && let rank_beyond =
-                leap_of(before.to).and_then(|l| leap_of(l.to)).map_or(0, |l| l.rank)
-            && before.rank - rank == rank - rank_beyond
             && let Some(second) = leap_of(before.to)
+            && let beyond = leap_of(second.to).map_or(0, |l| l.rank)
+            && before.rank - second.rank == second.rank - beyond
         {
-            (low, high) =
-                (low.min(before.low).min(second.low), high.max(before.high).max(second.high));
-            leap = Leap { to: second.to, low, high, ..leap };
+            leap.to = second.to;
+            leap.low = low.min(before.low).min(second.low);
+            leap.high = high.max(before.high).max(second.high);
         }
         self.leaps.push(leap);
         self.leaps.len() as u32 - 1

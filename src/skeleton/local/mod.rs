@@ -92,11 +92,12 @@ fn is_block(draft: &Draft) -> bool {
 
 /// A branch that has as many points as a branch may have, farther apart than wanted.
 fn slender(draft: &Draft, step: f64) -> Option<Finding> {
-    let longest = draft.runs.iter().max_by(|a, b| a.length().total_cmp(&b.length()))?;
-    let apart = longest.length() / MOST_PIECES;
+    let lengths = draft.runs.iter().map(|run| (run.length(), run));
+    let (length, longest) = lengths.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let apart = length / MOST_PIECES;
     (apart > step).then(|| {
         let middle = longest.stations.get(longest.stations.len() / 2).map(|s| s.centroid);
-        let thick = longest.length() / (2.0 * longest.radius());
+        let thick = length / (2.0 * longest.radius());
         let text = format!(
             "a branch is {thick:.0} times as long as it is thick: its points are {apart:.3} mm apart, \
              not {step:.3} mm"

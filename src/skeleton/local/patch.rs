@@ -58,11 +58,11 @@ pub(crate) fn patches(
                 continue;
             }
             if is_whole {
-                joined.join(f.0, cutting.region(mesh, t, 0));
+                joined.join(f.0, cutting.region(t, 0));
                 continue;
             }
             for part in 0..cutting.parts(mesh, h) {
-                joined.join(cutting.region(mesh, h, part), cutting.region_beyond(mesh, h, part));
+                joined.join(cutting.region(h, part), cutting.region_beyond(mesh, h, part));
             }
         }
     }
@@ -77,7 +77,7 @@ pub(crate) fn patches(
         }
     }
     for (i, section) in interfaces.iter().enumerate() {
-        let region = cutting.region(mesh, section.half_edges[0], 0);
+        let region = cutting.region(section.half_edges[0], 0);
         let piece = tally.piece(&mut joined, region);
         tally.all[piece].interfaces.push(i);
     }
@@ -123,7 +123,7 @@ fn count_cells(
                 match whole {
                     Some(piece) => tally.euler[piece] -= 1,
                     None => (0..cutting.parts(mesh, h))
-                        .for_each(|part| tally.add(joined, cutting.region(mesh, h, part), -1)),
+                        .for_each(|part| tally.add(joined, cutting.region(h, part), -1)),
                 }
             }
         }
@@ -133,7 +133,7 @@ fn count_cells(
             let h = HalfEdgeId(h);
             match of_face[h.face().index()] {
                 Some(piece) => tally.euler[piece as usize] += 1,
-                None => tally.add(joined, cutting.region(mesh, h, 0), 1),
+                None => tally.add(joined, cutting.region(h, 0), 1),
             }
         }
     }
@@ -337,7 +337,7 @@ impl Cutting {
     }
 
     /// The region along part `part` of side `h`, in the triangle of `h`.
-    fn region(&self, _mesh: &HalfEdgeMesh, h: HalfEdgeId, part: usize) -> u32 {
+    fn region(&self, h: HalfEdgeId, part: usize) -> u32 {
         match self.cut_face(h.face()) {
             None => h.face().0,
             Some(cut) => cut.region_of_part[cut.first_part[h.index() % 3] + part],
@@ -346,7 +346,7 @@ impl Cutting {
 
     /// The region beyond part `part` of side `h`.
     fn region_beyond(&self, mesh: &HalfEdgeMesh, h: HalfEdgeId, part: usize) -> u32 {
-        self.region(mesh, mesh.twin(h), self.parts(mesh, h) - 1 - part)
+        self.region(mesh.twin(h), self.parts(mesh, h) - 1 - part)
     }
 
     /// The regions above and below a cut.
@@ -357,6 +357,6 @@ impl Cutting {
             .iter()
             .position(|p| p.cut == cut as u32 && p.index == 0)
             .unwrap_or(0);
-        (self.region(mesh, h, rank), self.region(mesh, h, rank + 1))
+        (self.region(h, rank), self.region(h, rank + 1))
     }
 }
