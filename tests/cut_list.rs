@@ -1,5 +1,6 @@
 //! The cut list of the samples: sums that agree with the frame.
 
+use std::f64::consts::{FRAC_PI_3, PI, TAU};
 use std::path::Path;
 
 use beamwright::frame::Loft;
@@ -23,10 +24,10 @@ fn list(outcome: &Outcome, stock: Option<Stock>) -> CutList {
         material: Material { name: "=steel".into(), ..Material::default() },
         stock,
     };
-    let volumes = assembly("list", &outcome.frame, &outcome.joints, params.material.density)
+    let sizes = assembly("list", &outcome.frame, &outcome.joints, params.material.density)
         .expect("solids")
-        .volumes;
-    CutList::new(&outcome.frame, &outcome.joints, &volumes, &params)
+        .sizes;
+    CutList::new(&outcome.frame, &outcome.joints, &sizes, &params)
 }
 
 #[test]
@@ -36,13 +37,13 @@ fn one_bar_is_one_piece_of_its_length_and_mass() -> Outcomes {
     assert_eq!((bar.quantity, bar.piece.as_str()), (1, "P01"));
     assert!((bar.length_mm - 80.0).abs() < 0.05);
     // π 4² · 80 mm³ of steel.
-    assert!((bar.mass_kg / (std::f64::consts::PI * 16.0 * 80.0 * 7850e-9) - 1.0).abs() < 0.01);
-    assert!((bar.unit_surface_m2 / (std::f64::consts::TAU * 4.0 * 80.0 * 1e-6) - 1.0).abs() < 0.01);
+    assert!((bar.mass_kg / (PI * 16.0 * 80.0 * 7850e-9) - 1.0).abs() < 0.01);
+    assert!((bar.unit_surface_m2 / (TAU * 4.0 * 80.0 * 1e-6) - 1.0).abs() < 0.01);
     Ok(())
 }
 
 #[test]
-fn masses_of_tapered_round_members_are_those_of_their_cones() -> Outcomes {
+fn masses_and_surfaces_of_tapered_round_members_are_those_of_their_cones() -> Outcomes {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/quadpod.obj");
     for loft in [Loft::Taper, Loft::Multi] {
         let mut settings = Settings { joints: JointKind::None, ..Settings::default() };
@@ -58,14 +59,18 @@ fn masses_of_tapered_round_members_are_those_of_their_cones() -> Outcomes {
                 Outline::Circle { radius, .. } => *radius,
                 other => panic!("{other:?}"),
             };
-            let cones = beam.shape.stations.windows(2).map(|w| {
+            let (mut volume, mut skin) = (0.0, 0.0);
+            for w in beam.shape.stations.windows(2) {
                 let [a, b] = [radius(&w[0]), radius(&w[1])];
-                (w[1].at - w[0].at) * (a * a + a * b + b * b)
-            });
-            let volume = std::f64::consts::FRAC_PI_3 * beam.cut_length * cones.sum::<f64>();
-            let mass = volume * 7850e-9;
+                let height = (w[1].at - w[0].at) * beam.cut_length;
+                volume += FRAC_PI_3 * height * (a * a + a * b + b * b);
+                skin += PI * (a + b) * height.hypot(b - a);
+            }
+            let (mass, surface) = (volume * 7850e-9, skin * 1e-6);
             // To the last digit of the list.
-            assert!((piece.unit_mass_kg - mass).abs() < 6e-7, "{loft:?} {}: {mass}", piece.piece);
+            let name = &piece.piece;
+            assert!((piece.unit_mass_kg - mass).abs() < 6e-7, "{loft:?} {name}: {mass}");
+            assert!((piece.unit_surface_m2 - surface).abs() < 6e-7, "{loft:?} {name}: {surface}");
         }
     }
     Ok(())

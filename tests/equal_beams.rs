@@ -112,9 +112,9 @@ fn share_a_product(a: &Part, b: &Part) -> bool {
 fn assert_equal(case: &Symmetric, joint: JointKind, choice: &str, loft: Loft) {
     let Symmetric { name, truth, equal } = case;
     let built = built(truth, 0.06, joint, choice, loft);
-    let Assembly { document, volumes, .. } =
+    let Assembly { document, sizes, .. } =
         assembly(name, &built.frame, &built.joints, 7850.0).expect("solids");
-    let list = CutList::new(&built.frame, &built.joints, &volumes, &CutListParams::default());
+    let list = CutList::new(&built.frame, &built.joints, &sizes, &CutListParams::default());
     let parts = &document.groups[0].parts;
     let says = format!("{name}, {joint:?}, {choice}, {loft:?}");
     for equal in equal {
@@ -189,10 +189,9 @@ fn legs_drawn_a_little_longer_are_another_piece() {
         for loft in [Loft::Constant, Loft::Taper] {
             assert_equal(&uneven, JointKind::None, choice, loft);
             let built = built(&uneven.truth, 0.06, JointKind::None, choice, loft);
-            let volumes =
-                assembly("legs", &built.frame, &built.joints, 7850.0).expect("solids").volumes;
-            let list =
-                CutList::new(&built.frame, &built.joints, &volumes, &CutListParams::default());
+            let sizes =
+                assembly("legs", &built.frame, &built.joints, 7850.0).expect("solids").sizes;
+            let list = CutList::new(&built.frame, &built.joints, &sizes, &CutListParams::default());
             let [short, long] = [4, 5].map(|strut| {
                 let mark = mark(built.beam_of(&uneven.truth, strut));
                 let piece = list.pieces.iter().find(|p| p.marks.contains(&mark));

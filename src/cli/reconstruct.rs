@@ -93,10 +93,10 @@ fn reconstruct(
     if !args.output.no_non_design {
         built = built.with_non_design(&outcome.surface, density);
     }
-    let Assembly { document, volumes, beside, findings } = built;
+    let Assembly { document, sizes, beside, findings } = built;
     outcome.findings.extend(findings);
     let params = args.shop.cut_list_params();
-    let list = CutList::new(&outcome.frame, &outcome.joints, &volumes, &params);
+    let list = CutList::new(&outcome.frame, &outcome.joints, &sizes, &params);
     outcome.findings.extend(list.findings());
     let summary = Summary::new(name, &outcome.surface, &outcome.findings)
         .with_skeleton(&outcome.surface, &outcome.skeleton)

@@ -7,7 +7,7 @@ use nalgebra::{Point2, Unit, Vector2, Vector3};
 use super::{LEAST_LEFT, PER_QUARTER};
 use crate::frame::Beam;
 use crate::saddle::Saddle;
-use crate::section::outline::{Outline, Region};
+use crate::section::outline::Outline;
 use crate::section::properties::Contours;
 
 /// How an end of a beam is cut: in a plane, or along the side of a round member.
@@ -54,11 +54,6 @@ pub struct CutBeam {
     pub ends: [EndCut; 2],
     /// Length along the axis between the cuts, mm.
     pub axis_length: f64,
-    /// Mean length over the section, mm: of the square-cut piece of the same volume. Between planes
-    /// it is that along the axis; a saddle leaves more on both its sides.
-    pub mean_length: f64,
-    /// Mean length around the outside, mm: of the square-cut piece of the same surface.
-    pub skin_length: f64,
     /// Length to saw off a bar: from the farthest corner to the farthest, mm.
     pub length: f64,
     /// Turn of the second cut against the first about the axis, rad, in (−π, π]: 0 where both lean
@@ -92,17 +87,9 @@ impl CutBeam {
         };
         let [low, high_of_low] = reach(&first, 0);
         let [low_of_high, high] = reach(&last, 1).map(|z| axis_length + z);
-        let over = |of: &dyn Fn(&Saddle, &Region) -> f64| {
-            let rise = |e: usize| ends[e].saddle.map_or(0.0, |s| of(&s, &corners[0].region));
-            axis_length + rise(1) - rise(0)
-        };
         (low_of_high - high_of_low >= LEAST_LEFT * beam.length).then(|| Self {
             ends,
             axis_length,
-            mean_length: over(&mean_rise),
-            skin_length: over(&|saddle, region| {
-                round(&region.outer).map_or(0.0, |r| saddle.mean_on_circle(r))
-            }),
             length: high - low,
             twist: twist(lean(beam, &ends[0]), lean(beam, &ends[1])),
             leans: leans(start, end),
@@ -112,15 +99,7 @@ impl CutBeam {
     /// The beam cut square at its nodes.
     pub(super) fn square(beam: &Beam) -> Self {
         let length = beam.cut_length;
-        Self {
-            ends: [EndCut::SQUARE; 2],
-            axis_length: length,
-            mean_length: length,
-            skin_length: length,
-            length,
-            twist: 0.0,
-            leans: [0.0; 2],
-        }
+        Self { ends: [EndCut::SQUARE; 2], axis_length: length, length, twist: 0.0, leans: [0.0; 2] }
     }
 }
 
@@ -130,18 +109,6 @@ pub(super) fn round(outline: &Outline) -> Option<f64> {
         Outline::Circle { centre, radius } if *centre == Point2::origin() => Some(*radius),
         _ => None,
     }
-}
-
-/// Mean height of a saddle over a round section, against where it meets the axis, mm.
-fn mean_rise(saddle: &Saddle, region: &Region) -> f64 {
-    let (mut volume, mut area) = (0.0, 0.0);
-    for (i, outline) in std::iter::once(&region.outer).chain(&region.holes).enumerate() {
-        let sign = if i == 0 { 1.0 } else { -1.0 };
-        let radius = round(outline).unwrap_or(0.0);
-        volume += sign * saddle.over_disc(radius);
-        area += sign * PI * radius * radius;
-    }
-    volume / area
 }
 
 /// How far a cut stands above where it meets the axis, at a point of the section, mm.

@@ -328,7 +328,6 @@ mod tests {
         assert_eq!((cut.setback, saddle.radius, saddle.above), (5.0, 5.0, false));
         // Its sides reach down to √(5² − 3²) from the axis.
         assert!((joints.beams[2].length - 26.0).abs() < 1e-2, "{}", joints.beams[2].length);
-        assert!(joints.beams[2].mean_length > joints.beams[2].axis_length);
     }
 
     #[test]
@@ -364,9 +363,6 @@ mod tests {
             // Its tips reach to the axis of the member.
             assert!((beam.length - 30.0).abs() < 1e-9, "{}", beam.length);
             assert!((beam.axis_length - (30.0 - own)).abs() < 1e-9);
-            // Two equal cylinders at a right angle share 16/3 r³.
-            let mean = 30.0 - 8.0 / 3.0 * own / PI;
-            assert!((beam.mean_length - mean).abs() < 1e-9, "{}", beam.mean_length);
         }
     }
 

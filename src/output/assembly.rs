@@ -38,12 +38,21 @@ const BALL_COLOUR: [u8; 3] = [160, 160, 160];
 pub struct Assembly {
     /// The document.
     pub document: Document,
-    /// Volume of each kind of piece (see [`Alike`]) as it is built, mm³; 0 of one that is not.
-    pub volumes: Vec<f64>,
+    /// Volume and skin of each kind of piece (see [`Alike`]) as it is built; 0 of one that is not.
+    pub sizes: Vec<SolidSize>,
     /// Non-design parts that go into a mesh file beside the STEP file.
     pub beside: Vec<PartMesh>,
     /// Beams that were built as simpler solids or not at all, non-design parts that are none.
     pub findings: Vec<Finding>,
+}
+
+/// What the solid of a piece weighs and takes of paint, but for its material.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolidSize {
+    /// Volume, mm³.
+    pub volume: f64,
+    /// Area of the outside between the cuts, mm².
+    pub skin: f64,
 }
 
 /// Why there is no assembly.
@@ -121,14 +130,15 @@ pub fn assembly(
         models[kind].as_ref().ok().map(|model| model.placed(name, at))
     });
     let parts = parts.collect();
-    let volumes = models.iter().map(|m| m.as_ref().map_or(0.0, |m| m.volume)).collect();
+    let size = |m: &Result<Model, _>| m.as_ref().map_or(SolidSize::default(), |m| m.size);
+    let sizes = models.iter().map(size).collect();
     let group = |name: &str, parts| Group { name: name.into(), parts, groups: Vec::new() };
     let mut groups = vec![group("Beams", parts)];
     if !joints.balls.is_empty() {
         groups.push(group("Joints", balls(frame, &joints.balls, density)?));
     }
     let document = Document { name: name.to_owned(), groups };
-    Ok(Assembly { document, volumes, beside: Vec::new(), findings })
+    Ok(Assembly { document, sizes, beside: Vec::new(), findings })
 }
 
 /// A beam by its mark and name.
@@ -141,7 +151,7 @@ struct Model {
     product: String,
     colour: [u8; 3],
     body: Body,
-    volume: f64,
+    size: SolidSize,
     /// How it was built where it could not be as wanted.
     simpler: Option<&'static str>,
     /// Facts that all its beams share.
@@ -159,15 +169,15 @@ impl Model {
         colour: [u8; 3],
         density: f64,
     ) -> Result<Self, step::BodyError> {
-        let (body, simpler) = sound_body(beam, cut, &placement(beam, frame))?;
+        let (loft, simpler) = sound_loft(beam, cut, &placement(beam, frame))?;
         let name = beam.shape.name();
-        let volume = body.volume()?;
-        let mass = volume * density * 1e-9;
+        let size = SolidSize { volume: loft.volume()?, skin: loft.skin()? };
+        let mass = size.volume * density * 1e-9;
         Ok(Self {
             product: format!("{name} L={}", figures(cut.length, 1)),
             colour,
-            body,
-            volume,
+            body: Body::Loft(loft),
+            size,
             simpler,
             properties: vec![
                 Property::text("profile", name),
@@ -213,23 +223,25 @@ impl Model {
 
 /// The solid of a beam as it is cut; failing that cut square, failing that a round bar of its area,
 /// with words for what was done.
-fn sound_body(
+fn sound_loft(
     beam: &Beam,
     cut: &CutBeam,
     placement: &Isometry3<f64>,
-) -> Result<(Body, Option<&'static str>), step::BodyError> {
-    let wanted = body(&beam.shape, cut, placement);
-    if let Ok(body) = wanted.and_then(|b| b.check().map(|_| b)) {
-        return Ok((body, None));
+) -> Result<(Loft, Option<&'static str>), step::BodyError> {
+    let sound = |shape: &BeamShape, cut: &CutBeam| {
+        let loft = loft(shape, cut, placement)?;
+        Body::Loft(loft.clone()).check().map(|_| loft)
+    };
+    if let Ok(wanted) = sound(&beam.shape, cut) {
+        return Ok((wanted, None));
     }
     let square_at = |e: EndCut| EndCut { setback: e.setback, ..EndCut::SQUARE };
     let square = CutBeam { ends: cut.ends.map(square_at), ..*cut };
-    let plain = body(&beam.shape, &square, placement);
-    if let Ok(body) = plain.and_then(|b| b.check().map(|_| b)) {
-        return Ok((body, Some("with its ends cut square")));
+    if let Ok(plain) = sound(&beam.shape, &square) {
+        return Ok((plain, Some("with its ends cut square")));
     }
-    let round = body(&BeamShape::unmatched(beam.shape.properties.area), &square, placement)?;
-    round.check().map(|_| (round, Some("as a round bar of its area")))
+    let round = sound(&BeamShape::unmatched(beam.shape.properties.area), &square)?;
+    Ok((round, Some("as a round bar of its area")))
 }
 
 fn simpler_solid(index: usize, frame: &Frame, beam: &Beam, how: &str) -> Finding {
@@ -289,11 +301,11 @@ fn placement(beam: &Beam, frame: &Frame) -> Isometry3<f64> {
 }
 
 /// The loft of a shape between the cuts of its ends.
-fn body(
+fn loft(
     shape: &BeamShape,
     cut: &CutBeam,
     placement: &Isometry3<f64>,
-) -> Result<Body, step::BodyError> {
+) -> Result<Loft, step::BodyError> {
     let stations = shape
         .stations
         .iter()
@@ -308,7 +320,7 @@ fn body(
         (None, None) => step::EndCut::Square,
     };
     let [start, end] = [local(&cut.ends[0]), local(&cut.ends[1])];
-    Ok(Body::Loft(Loft { start, end, ..Loft::between_stations(stations) }))
+    Ok(Loft { start, end, ..Loft::between_stations(stations) })
 }
 
 fn station(station: &ShapeStation, start: f64, length: f64) -> Result<Station, step::BodyError> {

@@ -24,6 +24,7 @@ pub use piece::Piece;
 use crate::finding::{Finding, FindingKind};
 use crate::frame::Frame;
 use crate::joint::Joints;
+use crate::output::assembly::SolidSize;
 use crate::output::material::Material;
 
 /// What the list is told.
@@ -72,11 +73,16 @@ pub struct CutList {
 impl CutList {
     /// Lists the beams of a frame as they are cut.
     ///
-    /// * `volumes`: of the kinds of pieces, mm³, as their solids have them
-    ///   ([`Assembly::volumes`](super::assembly::Assembly::volumes)): the masses are those of the
-    ///   STEP file.
-    pub fn new(frame: &Frame, joints: &Joints, volumes: &[f64], params: &CutListParams) -> Self {
-        let pieces = piece::pieces(frame, joints, volumes, params);
+    /// * `sizes`: of the kinds of pieces, as their solids have them
+    ///   ([`Assembly::sizes`](super::assembly::Assembly::sizes)): masses and surfaces are those of
+    ///   the STEP file.
+    pub fn new(
+        frame: &Frame,
+        joints: &Joints,
+        sizes: &[SolidSize],
+        params: &CutListParams,
+    ) -> Self {
+        let pieces = piece::pieces(frame, joints, sizes, params);
         let totals = totals(&pieces);
         let nesting = params.stock.map(|stock| nesting::nest(&pieces, stock));
         Self {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::CutListParams;
 use crate::frame::{Beam, Frame};
 use crate::joint::{Alike, CutBeam, Joints};
-use crate::output::assembly::mark;
+use crate::output::assembly::{SolidSize, mark};
 use crate::section::matching::folded_angle;
 use crate::wording::{rounded, rounded_figures};
 
@@ -63,14 +63,14 @@ pub struct Piece {
 pub(super) fn pieces(
     frame: &Frame,
     joints: &Joints,
-    volumes: &[f64],
+    sizes: &[SolidSize],
     params: &CutListParams,
 ) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     for (i, &Alike { kind, off, .. }) in joints.alike.iter().enumerate() {
         let beam = &frame.beams[i];
         if kind == pieces.len() {
-            pieces.push(piece(beam, &joints.beams[i], volumes[kind], params));
+            pieces.push(piece(beam, &joints.beams[i], sizes[kind], params));
         }
         let piece = &mut pieces[kind];
         piece.marks.push(mark(i));
@@ -95,7 +95,7 @@ pub(super) fn pieces(
 }
 
 /// A piece that is cut like a beam, before any beam is counted.
-fn piece(beam: &Beam, cut: &CutBeam, volume: f64, params: &CutListParams) -> Piece {
+fn piece(beam: &Beam, cut: &CutBeam, size: SolidSize, params: &CutListParams) -> Piece {
     let shape = &beam.shape;
     let [a, b] = [&cut.ends[0], &cut.ends[1]].map(|e| rounded(e.angle.to_degrees(), 1));
     // Either end may be called the first: the more oblique one is.
@@ -120,12 +120,9 @@ fn piece(beam: &Beam, cut: &CutBeam, volume: f64, params: &CutListParams) -> Pie
         lean_deg: rounded(lean.to_degrees(), 1),
         off_mm: 0.0,
         area_mm2: rounded_figures(shape.properties.area, 3),
-        unit_mass_kg: rounded_figures(volume * params.material.density * 1e-9, 6),
+        unit_mass_kg: rounded_figures(size.volume * params.material.density * 1e-9, 6),
         mass_kg: 0.0,
-        unit_surface_m2: rounded_figures(
-            shape.profile.outer_perimeter() * cut.skin_length * 1e-6,
-            6,
-        ),
+        unit_surface_m2: rounded_figures(size.skin * 1e-6, 6),
         branches: Vec::new(),
     }
 }

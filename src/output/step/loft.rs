@@ -127,6 +127,17 @@ impl Loft {
         }
     }
 
+    /// Area of the outside between the cuts, without bores, mm²: what is painted.
+    ///
+    /// # Errors
+    /// If the loft is not a solid.
+    pub fn skin(&self) -> Result<f64, BodyError> {
+        match self.coped() {
+            Some(coped) => coped.map(|c| c.skin()),
+            None => Ok(self.levels()?.skin()),
+        }
+    }
+
     /// The beam as one with saddles, if it has any.
     pub(super) fn coped(&self) -> Option<Result<Coped, BodyError>> {
         let has_saddle = [&self.start, &self.end].iter().any(|e| matches!(e, EndCut::Saddle(_)));

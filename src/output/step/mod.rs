@@ -55,6 +55,7 @@
 //! shape itself is exact.
 
 mod assembly;
+mod blend;
 mod body;
 mod brep;
 mod catalogue;
@@ -75,6 +76,7 @@ mod product;
 mod sections;
 mod shapes;
 mod side;
+mod skin;
 mod spline;
 mod topology;
 mod volume;

@@ -11,16 +11,14 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::blend::{Blend, Samples, Tangents};
 use super::error::BodyError;
 use super::gauss;
 use super::levels::Levels;
 use super::piece::signed_area;
-use super::spline::natural_second_derivatives;
 
 /// Simpson's rule: exact for the ruled sides, and looks at mid-span.
 const SIMPSON: [(f64, f64); 3] = [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)];
-
-type Samples = Vec<(Point3<f64>, Vector3<f64>)>;
 
 impl Levels {
     /// Volume, mm³.
@@ -34,8 +32,7 @@ impl Levels {
         let mut volume = 0.0;
         for r in 0..self.rings.len() {
             for j in 0..self.rings[r][0].len() {
-                let curves: Vec<Samples> =
-                    (0..=self.last()).map(|k| self.samples(r, k, j)).collect();
+                let curves = self.curves(r, j);
                 let weights = self.rings[r][0][j].weights();
                 volume += self.cap(self.last(), &curves[self.last()], &weights);
                 volume -= self.cap(0, &curves[0], &weights);
@@ -69,64 +66,14 @@ impl Levels {
         };
         curve.iter().zip(weights).map(term).sum()
     }
-
-    /// Where along the loft its sides are evaluated.
-    fn blends(&self, rule: &[(f64, f64)]) -> Vec<Blend> {
-        let second: Vec<Vec<f64>> =
-            if self.smooth { self.cardinal_curvature() } else { Vec::new() };
-        let spans = self.heights.windows(2).enumerate();
-        spans
-            .flat_map(|(k, w)| {
-                let second = &second;
-                rule.iter().map(move |&(t, weight)| Blend::new(k, w[1] - w[0], t, weight, second))
-            })
-            .collect()
-    }
-
-    /// Second derivatives of the natural splines that are 1 at one station.
-    pub(super) fn cardinal_curvature(&self) -> Vec<Vec<f64>> {
-        (0..=self.last())
-            .map(|one| {
-                let values: Vec<f64> =
-                    (0..=self.last()).map(|k| f64::from(u8::from(k == one))).collect();
-                natural_second_derivatives(&self.heights, &values)
-            })
-            .collect()
-    }
-}
-
-/// Shares Bₖ(v) of the stations in one cross-section, and their derivatives.
-struct Blend {
-    weight: f64,
-    shares: Vec<(usize, f64, f64)>,
 }
 
 impl Blend {
-    /// At the fraction `t` of the span of length `h` above station `k`.
-    fn new(k: usize, h: f64, t: f64, weight: f64, second: &[Vec<f64>]) -> Self {
-        let mut shares = vec![(k, 1.0 - t, -1.0), (k + 1, t, 1.0)];
-        for (station, m) in second.iter().enumerate() {
-            let s = 1.0 - t;
-            let sixth = h * h / 6.0;
-            let bend = sixth * ((s * s * s - s) * m[k] + (t * t * t - t) * m[k + 1]);
-            let rise = sixth * ((1.0 - 3.0 * s * s) * m[k] + (3.0 * t * t - 1.0) * m[k + 1]);
-            shares.push((station, bend, rise));
-        }
-        Self { weight, shares }
-    }
-
     /// Flux through the side along this section, and twice ½∮ around it.
     fn flux(&self, curves: &[Samples], weights: &[f64], base: f64) -> (f64, f64) {
         let (mut flux, mut area) = (0.0, 0.0);
         for (node, weight) in weights.iter().enumerate() {
-            let (mut at, mut along, mut up) =
-                (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
-            for &(station, share, rise) in &self.shares {
-                let (p, d) = &curves[station][node];
-                at += p.coords * share;
-                along += d * share;
-                up += p.coords * rise;
-            }
+            let Tangents { at, along, up } = self.tangents(curves, node);
             flux += weight * (at.z - base) * (along.x * up.y - up.x * along.y);
             area += 0.5 * weight * (at.x * along.y - at.y * along.x);
         }
