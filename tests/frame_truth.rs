@@ -13,7 +13,9 @@ use beamwright::section::matching::MatchTarget;
 use beamwright::section::outline::Outline;
 use beamwright::section::{Catalogue, MatchMode, ProfileChoice, match_profile};
 use beamwright::skeleton::{self, SkeletonParams};
+use common::TestMesh;
 use common::frame::TrueFrame;
+use common::march_cubes::surface_of;
 use nalgebra::{Point3, Vector3};
 
 fn data(name: &str) -> PathBuf {
@@ -221,6 +223,46 @@ fn a_bar_gets_the_tube_of_nearest_bending_stiffness() {
     assert_eq!(beam.shape.profile.to_string(), nearest.name());
     let designation = beam.shape.profile.designation.as_ref().expect("a standard profile");
     assert!(designation.standard.contains("EN 102"), "{designation:?}");
+}
+
+/// A portal of flat bars `b` thick in its plane and `h` deep, meshed three elements to its thickness;
+/// its feet are non-design.
+fn portal_of_flats(b: f64, h: f64) -> TestMesh {
+    let [height, span, foot] = [8.0 * b, 9.0 * b, 0.8 * b];
+    let of_box = |p: [f64; 3], low: [f64; 3], high: [f64; 3]| {
+        (0..3).map(|k| f64::max(low[k] - p[k], p[k] - high[k])).fold(f64::MIN, f64::max)
+    };
+    let (t, y) = (0.5 * b, 0.5 * h);
+    let distance = |p: [f64; 3]| {
+        let legs = [0.0, span].map(|x| of_box(p, [x - t, -y, 0.0], [x + t, y, height + t]));
+        let beam = of_box(p, [-t, -y, height - t], [span + t, y, height + t]);
+        legs[0].min(legs[1]).min(beam)
+    };
+    let step = b / 3.0;
+    // No side lies on the grid.
+    let low = [-t, -y, 0.0].map(|x| x - 2.3 * step);
+    let high = [span + t, y, height + t].map(|x| x + 2.0 * step);
+    surface_of(distance, low, high, step).labelled(|middle| middle[2] < foot)
+}
+
+#[test]
+fn flat_bars_are_recognised_whose_corners_a_coarse_mesh_has_worn() {
+    let (choice, all_families) = (ProfileChoice::Catalogue(Vec::new()), Catalogue::builtin());
+    for (b, h) in [(10.0, 20.0), (12.0, 30.0), (15.0, 40.0)] {
+        let surface = portal_of_flats(b, h).surface();
+        let params = SkeletonParams::default();
+        let march = skeleton::march(&surface, &params, &mut ()).expect("a skeleton");
+        let all = frame::sections(&surface, &march.skeleton);
+        let found = normalize(&march.skeleton, &all, &surface, &FrameParams::default()).frame;
+        assert_eq!(found.beams.len(), 3);
+        for beam in &found.beams {
+            let measured = beam.measured.as_ref().expect("a measured beam");
+            for mode in [MatchMode::Stiffness, MatchMode::Area] {
+                let bar = match_profile(measured, &choice, mode, all_families).expect("a match");
+                assert_eq!(bar.profile.to_string(), format!("Flat {h}x{b}"), "{mode:?}");
+            }
+        }
+    }
 }
 
 #[test]

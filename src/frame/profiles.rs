@@ -11,12 +11,12 @@ use super::shape::{BeamShape, Loft};
 use super::{Beam, Frame, lofts};
 use crate::cluster;
 use crate::finding::{Finding, FindingKind};
+use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
 use crate::section::matching::{
-    Equalized, MatchError, MatchMode, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
+    Equalized, MatchError, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
     fewest_profiles, match_profile,
 };
-use crate::section::{Profile, Shape};
 
 /// Sections and lengths that agree within this part are meant to be equal. The two halves of a
 /// mirrored voxel part agree within half of it, struts that were designed to differ do not.
@@ -122,8 +122,10 @@ fn reduce(
         .targets
         .iter()
         .zip(matched.iter())
-        .map(|(target, own)| Requirement { target: unworn(target, own, params.mode), length: 0.0 })
-        .collect();
+        .map(|(target, own)| {
+            Ok(Requirement { target: target.required(own, params.mode)?, length: 0.0 })
+        })
+        .collect::<Result<_, MatchError>>()?;
     for &group in &groups.group_of {
         requirements[group].length += groups.lengths[group];
     }
@@ -134,25 +136,6 @@ fn reduce(
         *m = Matched::of(profile, &groups.targets[i])?;
     }
     Ok(())
-}
-
-/// The section of a beam with what the mesh has worn off: a rectangle fitted to its flat sides, or
-/// a bar to the corners of its facets, is stiffer than the contour, and shall not be outdone by a
-/// profile that is not.
-fn unworn(target: &MatchTarget, own: &Matched, mode: MatchMode) -> MatchTarget {
-    let is_grown = match own.profile.shape {
-        Shape::Rectangle { .. } => true,
-        Shape::Round { .. } | Shape::Ellipse { .. } => target.facets.is_some(),
-        _ => false,
-    };
-    if !is_grown || own.profile.designation.is_some() || mode != MatchMode::Stiffness {
-        return target.clone();
-    }
-    MatchTarget {
-        principal_angle: target.principal_angle,
-        contours: target.contours.clone(),
-        ..MatchTarget::of_properties(&own.properties)
-    }
 }
 
 /// The shape of a beam without sections of its own (a stub in a joint): that of the beam it goes on

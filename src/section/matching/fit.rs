@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{MatchMode, MatchTarget, ProfileChoice, facets};
+use super::{MatchMode, MatchTarget, ProfileChoice};
 use crate::section::error::SectionError;
 use crate::section::piece::bisect;
 use crate::section::profile::Shape;
@@ -30,13 +30,12 @@ pub(super) fn fitted(
     target: &MatchTarget,
     mode: MatchMode,
 ) -> Result<Shape, SectionError> {
-    let facets = target.facets.map_or(1.0, facets::growth);
     let shape = match family {
-        ProfileChoice::Round => Shape::Round { d: facets * round(target) },
+        ProfileChoice::Round => Shape::Round { d: round(target) },
         ProfileChoice::Tube => tube(target),
         ProfileChoice::Ellipse => {
             let [b, h] = sides(target.i_1, target.i_2, 64.0 / PI);
-            Shape::Ellipse { b: facets * b, h: facets * h }
+            Shape::Ellipse { b, h }
         }
         ProfileChoice::Box => walled(target, |h, b, t| Shape::Box { b, h, t, r_o: 0.0, r_i: 0.0 }),
         ProfileChoice::I => {
@@ -49,11 +48,10 @@ pub(super) fn fitted(
         // Auto, freeform and catalogue are not families of sizes; their callers see to them.
         _ => {
             let [b, h] = rectangle(target.i_1, target.i_2);
-            let [of_b, of_h] = target.worn.unwrap_or([1.0; 2]);
-            Shape::Rectangle { b: b * of_b, h: h * of_h }
+            Shape::Rectangle { b, h }
         }
     };
-    target.scaled(shape, mode)
+    target.scaled(target.grown(shape), mode)
 }
 
 /// d = (64 √(I_1 I_2) / π)^¼.

@@ -21,11 +21,12 @@
 //! | `area`        | then scaled to the area                | least ε_A                               |
 //! | `not-weaker`  | then scaled until none of the four is less | lightest with none of the four less |
 //!
-//! What the mesh has worn off is given back in the mode `stiffness`: corners of rectangles (`worn`),
-//! and round bars between the corners of even facets (`facets`).
+//! What the mesh has worn off is given back in the mode `stiffness` (`unworn`): corners of rectangles,
+//! and round bars between the corners of even facets.
 //!
-//! A catalogue profile that agrees in all four within the scatter of sections measured on meshes
-//! is taken to be the one the section was made from, in the modes `stiffness` and `area`.
+//! A catalogue profile that agrees in all four with what is given back, within the scatter of sections
+//! measured on meshes, is taken to be the one the section was made from, in the modes `stiffness` and
+//! `area`.
 
 mod auto;
 mod choice;
@@ -37,6 +38,7 @@ mod nearest;
 mod reduce;
 mod roll;
 mod target;
+mod unworn;
 mod worn;
 
 use super::catalogue::{Catalogue, CatalogueError};

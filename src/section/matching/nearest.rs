@@ -15,22 +15,27 @@ pub(super) fn nearest<'c>(
     mode: MatchMode,
     catalogue: &'c Catalogue,
 ) -> Result<&'c Profile, MatchError> {
-    let all: Vec<(&Entry, MatchErrors)> = catalogue
-        .entries()
-        .iter()
-        .map(|entry| (entry, MatchErrors::of(&entry.properties, target)))
-        .collect();
-    if all.is_empty() {
+    let entries = catalogue.entries();
+    if entries.is_empty() {
         return Err(MatchError::EmptyCatalogue);
     }
-    let found = match mode {
-        MatchMode::NotWeaker => least(&all, |e| e.is_not_weaker(), |e| [e.area, e.stiffness()]),
-        MatchMode::Stiffness => least(&all, is_recognised, |e| [scatter(e), 0.0])
-            .or_else(|| least(&all, |_| true, |e| [e.stiffness(), e.area.abs()])),
-        MatchMode::Area => least(&all, is_recognised, |e| [scatter(e), 0.0])
-            .or_else(|| least(&all, |_| true, |e| [e.area.abs(), e.stiffness()])),
+    let against = |target: &MatchTarget| -> Vec<(&'c Entry, MatchErrors)> {
+        entries.iter().map(|e| (e, MatchErrors::of(&e.properties, target))).collect()
     };
-    found.ok_or(MatchError::NoneStrongEnough { profiles: all.len(), area: target.area })
+    let unworn = || target.unworn().map(|unworn| against(&unworn));
+    let recognised = |all: &[_]| least(all, is_recognised, |e| [scatter(e), 0.0]);
+    let found = match mode {
+        MatchMode::NotWeaker => {
+            least(&against(target), |e| e.is_not_weaker(), |e| [e.area, e.stiffness()])
+        }
+        MatchMode::Stiffness => {
+            let all = unworn()?;
+            recognised(&all).or_else(|| least(&all, |_| true, |e| [e.stiffness(), e.area.abs()]))
+        }
+        MatchMode::Area => recognised(&unworn()?)
+            .or_else(|| least(&against(target), |_| true, |e| [e.area.abs(), e.stiffness()])),
+    };
+    found.ok_or(MatchError::NoneStrongEnough { profiles: entries.len(), area: target.area })
 }
 
 /// The profile with the least key among those allowed; the first of equals.
@@ -64,8 +69,13 @@ fn scatter(errors: &MatchErrors) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
+    use nalgebra::Point2;
+
     use super::*;
     use crate::section::profile::Shape;
+    use crate::section::properties::Contours;
 
     fn name(target: &MatchTarget, mode: MatchMode, families: &[&str]) -> String {
         let catalogue = Catalogue::builtin().of_families(families).unwrap();
@@ -97,6 +107,41 @@ mod tests {
         for entry in catalogue.entries() {
             if MatchErrors::of(&entry.properties, &target).is_not_weaker() {
                 assert!(entry.properties.area >= found.properties.area, "{}", entry.name());
+            }
+        }
+    }
+
+    #[test]
+    fn flat_bars_and_round_bars_that_the_mesh_has_worn_are_recognised() {
+        // Corners cut off by a mesh a third as fine as the bar is thick: 4 % of the area.
+        let worn = |b: f64, h: f64, cut: f64| {
+            let [x, y] = [0.5 * b, 0.5 * h];
+            let corners = [
+                [x - cut, -y],
+                [x, cut - y],
+                [x, y - cut],
+                [x - cut, y],
+                [cut - x, y],
+                [-x, y - cut],
+                [-x, cut - y],
+                [cut - x, -y],
+            ];
+            corners.map(|[x, y]| Point2::new(x, y)).to_vec()
+        };
+        let faceted = |d: f64, sides: usize| {
+            let corner = |i: usize| TAU * i as f64 / sides as f64;
+            let at = |angle: f64| Point2::new(0.5 * d * angle.cos(), 0.5 * d * angle.sin());
+            (0..sides).map(|i| at(corner(i))).collect::<Vec<_>>()
+        };
+        for mode in [MatchMode::Stiffness, MatchMode::Area] {
+            for (contour, bar) in [
+                (worn(12.0, 30.0, 2.6), "Flat 30x12"),
+                (worn(10.0, 20.0, 2.0), "Flat 20x10"),
+                (worn(15.0, 20.0, 2.4), "Flat 20x15"),
+                (faceted(20.0, 12), "Round 20"),
+            ] {
+                let target = MatchTarget::of_contours(Contours::solid(contour)).unwrap();
+                assert_eq!(name(&target, mode, &["FLAT", "ROUND"]), bar, "{mode:?}");
             }
         }
     }
