@@ -14,6 +14,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import cases
 import laplacian
@@ -97,7 +98,7 @@ def run(*command: object) -> str:
     return done.stdout
 
 
-def evaluations(sample: str, made: dict[str, Path]) -> dict[str, dict]:
+def evaluations(sample: str, made: dict[str, Path]) -> dict[str, dict[str, Any]]:
     """Figures of every skeleton; others are made comparable first."""
     mesh_file = ROOT / "samples" / f"{sample}.obj"
     figures = {}
@@ -132,7 +133,7 @@ def number(value: float | None) -> str:
     return "–" if value is None else f"{value:.4f}"
 
 
-def row(name: str, e: dict, junctions: str) -> str:
+def row(name: str, e: dict[str, Any], junctions: str) -> str:
     """A line of the table under `HEAD`."""
     raw, even, topology = e["raw"], e["resampled"], e["topology"]
     return (

@@ -46,9 +46,10 @@ def export(program: Path, sample: Path, folder: Path, *options: str) -> int:
     """Writes all exports of a sample; the number of its beams."""
     files = [folder / f"{sample.stem}.{e}" for e in ("dxf", "ifc", "inp")]
     exports = [word for f in files for word in ("--export", str(f))]
-    command = [program, "reconstruct", sample, "-o", folder / f"{sample.stem}.step", "--json"]
+    step = folder / f"{sample.stem}.step"
+    command = [str(program), "reconstruct", str(sample), "-o", str(step), "--json"]
     done = subprocess.run([*command, *exports, *options], capture_output=True, check=True)
-    return json.loads(done.stdout)["frame"]["beams"]
+    return int(json.loads(done.stdout)["frame"]["beams"])
 
 
 def check_dxf(path: Path, beams: int) -> None:

@@ -11,10 +11,13 @@ FreeCAD's own volume is a rough one: it is up to 10 % off for the twisted and sm
 B-spline sides here that OCCT's adaptive integration gets right to ten digits.
 """
 
+from __future__ import annotations
+
 import json
 import os
 import sys
 from pathlib import Path
+from typing import Any, Iterator
 
 import FreeCAD
 import Import
@@ -23,7 +26,7 @@ ROUGH_VOLUME = 0.15
 PLACE = 1e-6
 
 
-def leaves(item, path):
+def leaves(item: Any, path: list[str]) -> Iterator[tuple[list[str], Any]]:
     """(path, object) of all solids below a group, in order."""
     if item.TypeId != "App::Part":
         yield path, item
@@ -32,13 +35,14 @@ def leaves(item, path):
         yield from leaves(child, [*path, item.Label])
 
 
-def same_name(label, name):
+def same_name(label: str, name: str) -> bool:
     """Whether FreeCAD may have made the label from the name by numbering it."""
     stem = name.rstrip("0123456789")
     return label == name or (label.startswith(stem) and label[len(stem) :].isdigit())
 
 
-def faults_of(path, item, meant):
+def faults_of(path: list[str], item: Any, meant: dict[str, Any]) -> Iterator[str]:
+    """How a part of the document differs from what was meant."""
     shape = item.Shape
     if shape.ShapeType != "Solid" or not shape.isValid():
         yield f"{shape.ShapeType}, valid: {shape.isValid()}"
@@ -54,7 +58,8 @@ def faults_of(path, item, meant):
         yield f"at {tuple(at)}, not {meant['placement'][3::4]}"
 
 
-def check(path):
+def check(path: Path) -> tuple[list[str], int]:
+    """All faults of one file, as lines, and the number of its parts."""
     parts = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))["parts"]
     document = FreeCAD.newDocument()
     Import.insert(name=str(path), docName=document.Name, merge=False, useLinkGroup=False)

@@ -18,6 +18,7 @@ import json
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Iterator
 
 from OCP.BRep import BRep_Tool
 from OCP.BRepCheck import BRepCheck_Analyzer
@@ -44,12 +45,12 @@ WIDEST_EDGE = 1e-5
 SAME = 1e-9
 
 
-def static(cls, name):
+def static(cls: type, name: str) -> Any:
     """A static method under either of the names bindings give it."""
     return getattr(cls, name + "_s", None) or getattr(cls, name)
 
 
-def sequence():
+def sequence() -> Any:
     """An empty sequence of labels."""
     try:
         from OCP.OCP.collections import Sequence_TDF_Label
@@ -61,18 +62,19 @@ def sequence():
         return TDF_LabelSequence()
 
 
-def attribute(label, kind):
+def attribute(label: TDF_Label, kind: type) -> Any:
     """An attribute of a label, or None."""
     found = kind()
     return found if label.FindAttribute(static(kind, "GetID")(), found) else None
 
 
-def name_of(label) -> str | None:
+def name_of(label: TDF_Label) -> str | None:
     found = attribute(label, TDataStd_Name)
-    return found.Get().ToExtString() if found else None
+    return str(found.Get().ToExtString()) if found else None
 
 
-def below(shape, kind):
+def below(shape: Any, kind: Any) -> list[Any]:
+    """The shapes of a kind within a shape, in OCCT's order."""
     explorer, found = TopExp_Explorer(shape, kind), []
     while explorer.More():
         found.append(explorer.Current())
@@ -87,7 +89,7 @@ class Leaf:
     name: str | None
     product: str | None
     path: list[str | None]
-    shape: object
+    shape: Any
     definition: TDF_Label
     colour: list[int] | None = None
     properties: TDataStd_NamedData | None = None
@@ -136,7 +138,7 @@ class Reader:
         model.products = len(entries)
         return model
 
-    def walk(self, assembly, path, model):
+    def walk(self, assembly: TDF_Label, path: list[str | None], model: Model) -> None:
         components = sequence()
         static(XCAFDoc_ShapeTool, "GetComponents")(assembly, components, False)
         for i in range(1, components.Length() + 1):
@@ -147,7 +149,7 @@ class Reader:
             else:
                 model.leaves.append(self.leaf(component, definition, path))
 
-    def leaf(self, component, definition, path) -> Leaf:
+    def leaf(self, component: TDF_Label, definition: TDF_Label, path: list[str | None]) -> Leaf:
         shape = static(XCAFDoc_ShapeTool, "GetShape")(component)
         volume = attribute(definition, XCAFDoc_Volume)
         return Leaf(
@@ -161,7 +163,7 @@ class Reader:
             volume.Get() if volume else None,
         )
 
-    def colour(self, shape, definition):
+    def colour(self, shape: Any, definition: TDF_Label) -> list[int] | None:
         own = static(XCAFDoc_ShapeTool, "GetShape")(definition)
         found = Quantity_Color()
         for candidate in [shape, own, *below(own, TopAbs_SOLID)]:
@@ -172,13 +174,13 @@ class Reader:
         return None
 
 
-def volume(solid) -> float:
+def volume(solid: Any) -> float:
     properties = GProp_GProps()
     static(BRepGProp, "VolumeProperties")(solid, properties, INTEGRATION, True, False)
-    return properties.Mass()
+    return float(properties.Mass())
 
 
-def faults_of_shape(leaf: Leaf):
+def faults_of_shape(leaf: Leaf) -> Iterator[str]:
     """What is wrong with a part, whatever it was meant to be."""
     solids = below(leaf.shape, TopAbs_SOLID)
     if len(solids) != 1:
@@ -197,7 +199,7 @@ def faults_of_shape(leaf: Leaf):
         yield "no colour"
 
 
-def faults_against(leaf: Leaf, meant: dict):
+def faults_against(leaf: Leaf, meant: dict[str, Any]) -> Iterator[str]:
     """How a part differs from what was meant."""
     for what, found in (
         ("name", leaf.name),
@@ -213,10 +215,10 @@ def faults_against(leaf: Leaf, meant: dict):
     if leaf.stated_volume is None or abs(leaf.stated_volume / meant["volume"] - 1) > SAME:
         yield f"stated volume {leaf.stated_volume}, not {meant['volume']}"
     placed = leaf.shape.Location().Transformation()
-    found = [placed.Value(row, column) for row in (1, 2, 3) for column in (1, 2, 3, 4)]
+    at = [placed.Value(row, column) for row in (1, 2, 3) for column in (1, 2, 3, 4)]
     size = max(1.0, *(abs(x) for x in meant["placement"]))
-    if any(abs(a - b) > SAME * size for a, b in zip(found, meant["placement"])):
-        yield f"placed at {found}, not {meant['placement']}"
+    if any(abs(a - b) > SAME * size for a, b in zip(at, meant["placement"])):
+        yield f"placed at {at}, not {meant['placement']}"
     widest = max(
         (
             static(BRep_Tool, "Tolerance")(static(TopoDS, "Edge")(edge))
@@ -227,23 +229,23 @@ def faults_against(leaf: Leaf, meant: dict):
     if widest > max(WIDEST_EDGE, 10 * meant["accuracy"] * meant["volume"] ** (1 / 3)):
         yield f"an edge is {widest:.1e} mm off its face"
     for name, value in meant["properties"].items():
-        found = property_of(leaf, name)
-        if found != value:
-            yield f"property {name!r} is {found!r}, not {value!r}"
+        own = property_of(leaf, name)
+        if own != value:
+            yield f"property {name!r} is {own!r}, not {value!r}"
 
 
-def property_of(leaf: Leaf, name: str):
+def property_of(leaf: Leaf, name: str) -> str | float | None:
     """The value of a property; OCCT keeps the UTF-8 bytes of texts as if they were characters."""
     data, key = leaf.properties, TCollection_ExtendedString(name, True)
     if data is None:
         return None
     data.LoadDeferredData()
     if data.HasString(key):
-        return data.GetString(key).ToExtString().encode("latin-1").decode()
-    return data.GetReal(key) if data.HasReal(key) else None
+        return str(data.GetString(key).ToExtString()).encode("latin-1").decode()
+    return float(data.GetReal(key)) if data.HasReal(key) else None
 
 
-def check(path: Path):
+def check(path: Path) -> tuple[list[str], Model]:
     """All faults of one file, as lines, and the model."""
     model = Reader(path).model()
     faults = [] if model.roots == 1 else [f"{model.roots} roots"]

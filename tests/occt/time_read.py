@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """time_read.py FOLDER: CPU seconds OCCT takes to read each STEP file of a folder, best of three."""
 
+from __future__ import annotations
+
 import sys
 import time
 from pathlib import Path
@@ -10,7 +12,7 @@ from OCP.TopAbs import TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 
 
-def read(path):
+def read(path: Path) -> tuple[float, int]:
     """Seconds for one reading, and the number of solids found."""
     start = time.process_time()
     reader = STEPControl_Reader()

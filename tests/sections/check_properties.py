@@ -19,10 +19,14 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any, Dict
 
 from sectionproperties.analysis import Section
 from sectionproperties.pre import Geometry
 from shapely.geometry import Polygon
+
+#: One section of the file: its contours and what the program found.
+Item = Dict[str, Any]
 
 EXACT = 1e-6
 TORSION = 0.005
@@ -30,7 +34,7 @@ FORMULA = 0.05
 TRIANGLES = 500
 
 
-def reference(item: dict) -> dict:
+def reference(item: Item) -> dict[str, float]:
     """Properties of one section by sectionproperties."""
     polygon = Polygon(item["outer"], item["holes"])
     geometry = Geometry(polygon)
@@ -50,7 +54,7 @@ def reference(item: dict) -> dict:
     }
 
 
-def faults(item: dict, exact: dict) -> list[str]:
+def faults(item: Item, exact: dict[str, float]) -> list[str]:
     """What is off by more than it may be."""
     found = []
     for key, value in exact.items():
@@ -64,17 +68,23 @@ def faults(item: dict, exact: dict) -> list[str]:
     return found
 
 
-def sections(path: str | None) -> list[dict]:
+def sections(path: str | None) -> list[Item]:
     """The sections of a file, or those just computed."""
     if path:
-        return json.loads(Path(path).read_text())
+        return read(Path(path))
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "sections.json"
         environment = {**os.environ, "BEAMWRIGHT_SECTION_JSON": str(target)}
         root = Path(__file__).resolve().parents[2]
         command = ["cargo", "test", "--quiet", "--test", "section_json"]
         subprocess.run(command, cwd=root, env=environment, check=True)
-        return json.loads(target.read_text())
+        return read(target)
+
+
+def read(path: Path) -> list[Item]:
+    """The sections of a file."""
+    items: list[Item] = json.loads(path.read_text())
+    return items
 
 
 def main() -> int:
