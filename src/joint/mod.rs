@@ -250,6 +250,8 @@ fn too_short(frame: &Frame, beam: &Beam) -> Finding {
 mod tests {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+    use nalgebra::Point2;
+
     use super::*;
     use crate::frame::shape::BeamShape;
     use crate::frame::{BeamAxes, BeamSection, Node};
@@ -328,6 +330,38 @@ mod tests {
         assert_eq!((cut.setback, saddle.radius, saddle.above), (5.0, 5.0, false));
         // Its sides reach down to √(5² − 3²) from the axis.
         assert!((joints.beams[2].length - 26.0).abs() < 1e-2, "{}", joints.beams[2].length);
+    }
+
+    #[test]
+    fn the_edge_of_a_saddle_lies_on_the_side_of_its_member() {
+        // A leg on a chord that goes on to the right, bent by 0, 3 and 9° there.
+        for bend in [0.0, 3.0, 9.0_f64].map(f64::to_radians) {
+            for (own, gap) in [(3.0, 0.0), (4.9, 0.1), (5.0, 0.0)] {
+                let beyond = [40.0 * bend.cos(), 40.0 * bend.sin(), 0.0];
+                let nodes = [[12.0, 25.0, 30.0], [0.0; 3], [-60.0, 0.0, 0.0], beyond];
+                let bars = [([0, 1], own), ([1, 2], 5.0), ([1, 3], 5.0)];
+                let frame = frame(&nodes, &bars);
+                let (joints, findings) = super::joints(&frame, &[], JointKind::Trim);
+                assert!(findings.is_empty());
+                let (beam, cut) = (&frame.beams[0], &joints.beams[0]);
+                let from_axis = |p: &Point3<f64>, end: [f64; 3]| {
+                    p.coords.cross(&Vector3::from(end).normalize()).norm()
+                };
+                for i in 0..48 {
+                    let (sin, cos) = (2.0 * PI * f64::from(i) / 48.0).sin_cos();
+                    let across = Point2::new(own * cos, own * sin);
+                    let along = cut.axis_length + cut::rise(beam, &cut.ends[1], &across);
+                    let BeamAxes { x, y, z } = beam.axes.rolled(beam.shape.roll);
+                    let p = Point3::from(nodes[0]) + *x * along + *y * across.x + *z * across.y;
+                    // One of the two members it is held against is followed exactly, the other
+                    // as far as it leans away over the width of the edge.
+                    let off = [nodes[2], beyond].map(|end| (from_axis(&p, end) - 5.0).abs());
+                    let reach = p.coords.norm() * bend.sin();
+                    assert!(off[0].min(off[1]) < gap + 1e-9, "{own}, {bend}: {off:?}");
+                    assert!(off[0].max(off[1]) < gap + reach + 1e-9, "{own}, {bend}: {off:?}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A loft as triangles: rings of corners, sides between them, caps over the ends.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
@@ -15,13 +15,13 @@ const SHORTEN: f64 = 0.9;
 /// The triangles of a loft; `None` if its stations do not fit each other or an outline is empty.
 /// Such a loft is no solid, and the STEP writer refuses it with words.
 pub(super) fn triangulate(loft: &Loft) -> Option<Triangles> {
-    let turn = turn_of_saddle(loft);
+    let corners = Corners::of(loft);
     let stations: Vec<Vec<Ring>> = loft
         .stations
         .iter()
         .map(|s| {
-            let holes = s.holes.iter().map(|h| reversed(ring(h, turn)));
-            std::iter::once(ring(&s.outer, turn)).chain(holes).collect()
+            let holes = s.holes.iter().map(|h| reversed(ring(h, &corners)));
+            std::iter::once(ring(&s.outer, &corners)).chain(holes).collect()
         })
         .collect();
     let [first, .., last] = stations.as_slice() else { return None };
@@ -63,14 +63,57 @@ fn sides(offset: u32, corners: u32, per_level: u32, levels: u32, triangles: &mut
     }
 }
 
-/// Angle of the first corner of circles: along the member of a saddle, so that the tips of a fish
-/// mouth, a quarter of a turn from there, are corners. With two saddles it is the first that counts.
-fn turn_of_saddle(loft: &Loft) -> f64 {
-    let along = [loft.start, loft.end].into_iter().find_map(|cut| match cut {
-        EndCut::Saddle(saddle) => Some(saddle.along()),
-        _ => None,
-    });
-    along.map_or(0.0, |along| along.y.atan2(along.x))
+/// Angle within which two corners of a circle are one, rad: a tip between them is blunt by less than
+/// a thousandth of the radius.
+const SAME_CORNER: f64 = 1e-3;
+
+/// The corners of circles, about their middle.
+///
+/// The edge of a fish mouth has a tip at either side of its member, a quarter of a turn from it. Even
+/// corners that begin along the member of one end have its tips among them; those of the other end
+/// are put between.
+struct Corners {
+    /// Angle of the first, rad.
+    start: f64,
+    /// Angles from there, ascending from 0, rad.
+    beyond: Vec<f64>,
+}
+
+impl Corners {
+    fn of(loft: &Loft) -> Self {
+        let members: Vec<f64> = [loft.start, loft.end]
+            .into_iter()
+            .filter_map(|cut| match cut {
+                EndCut::Saddle(saddle) => Some(saddle.along().y.atan2(saddle.along().x)),
+                _ => None,
+            })
+            .collect();
+        let start = members.first().copied().unwrap_or(0.0);
+        let mut beyond: Vec<f64> = (0..ROUND).map(|i| TAU * i as f64 / ROUND as f64).collect();
+        for along in members.iter().skip(1) {
+            let tips = [FRAC_PI_2, -FRAC_PI_2].map(|side| (along + side - start).rem_euclid(TAU));
+            let is_new = |tip: &f64| {
+                let off = beyond.iter().map(|corner| (tip - corner).abs());
+                off.map(|off| off.min(TAU - off)).fold(TAU, f64::min) > SAME_CORNER
+            };
+            let new: Vec<f64> = tips.into_iter().filter(is_new).collect();
+            beyond.extend(new);
+        }
+        beyond.sort_by(f64::total_cmp);
+        Self { start, beyond }
+    }
+
+    /// On an ellipse whose first half axis points in the direction of `turn`.
+    fn on(&self, centre: Point2<f64>, half_axes: [f64; 2], turn: f64) -> Ring {
+        let (sin, cos) = turn.sin_cos();
+        let p = Vector2::new(cos, sin) * half_axes[0];
+        let q = Vector2::new(-sin, cos) * half_axes[1];
+        let corner = |angle: &f64| {
+            let (sin, cos) = angle.sin_cos();
+            centre + p * cos + q * sin
+        };
+        self.beyond.iter().map(corner).collect()
+    }
 }
 
 /// Size along the member of the outline whose triangles a saddle has.
@@ -85,11 +128,11 @@ fn end_cap(rings: &[Ring], cut: &EndCut) -> Option<Vec<[u32; 3]>> {
     cap(&rings.iter().map(|ring| ring.iter().map(flat).collect()).collect::<Vec<Ring>>())
 }
 
-/// Corners on an outline, counter-clockwise; `turn`: angle of the first one of a circle.
-fn ring(outline: &Outline, turn: f64) -> Ring {
+/// Corners on an outline, counter-clockwise; `round`: those of a circle.
+fn ring(outline: &Outline, round: &Corners) -> Ring {
     let corners: Ring = match outline {
-        Outline::Circle { centre, radius } => round(*centre, [*radius; 2], turn),
-        Outline::Ellipse { centre, half_axes, turn } => round(*centre, *half_axes, *turn),
+        Outline::Circle { centre, radius } => round.on(*centre, [*radius; 2], round.start),
+        Outline::Ellipse { centre, half_axes, turn } => round.on(*centre, *half_axes, *turn),
         Outline::Path(path) => along(path),
         Outline::Freeform(curve) => {
             let count = (2 * (curve.breaks().len() - 1)).max(ROUND);
@@ -97,16 +140,6 @@ fn ring(outline: &Outline, turn: f64) -> Ring {
         }
     };
     if doubled_area(&corners) < 0.0 { reversed(corners) } else { corners }
-}
-
-fn round(centre: Point2<f64>, half_axes: [f64; 2], turn: f64) -> Ring {
-    let (sin, cos) = turn.sin_cos();
-    let [p, q] = [Vector2::new(cos, sin) * half_axes[0], Vector2::new(-sin, cos) * half_axes[1]];
-    let corner = |i: usize| {
-        let (sin, cos) = (TAU * i as f64 / ROUND as f64).sin_cos();
-        centre + p * cos + q * sin
-    };
-    (0..ROUND).map(corner).collect()
 }
 
 /// Corners along lines and arcs; an arc gets as many as its part of a circle.

@@ -10,7 +10,7 @@
 //!
 //! # What does not hold
 //! The corners lie on the exact surface, the triangles a little inside of it: a circle has
-//! [`ROUND`] sides. Between stations the surface is straight, also where the STEP file has a
+//! [`ROUND`] sides, and two more where its two ends are fish mouths that look different ways. Between stations the surface is straight, also where the STEP file has a
 //! smooth one. Bodies of facets (non-design parts) are left out: the mesh they come from shows
 //! them already.
 
@@ -158,6 +158,24 @@ pub(super) mod tests {
                 let bar = Loft::prism(Outline::circle(5.0), holes, 15.0);
                 assert_like(Body::Loft(Loft { end, ..bar }), 0.005);
             }
+        }
+    }
+
+    #[test]
+    fn fish_mouths_are_sharp_at_both_ends_whatever_way_they_look() {
+        let mouth = |turn: f64, above| {
+            let axis = UnitVector3::new_normalize(Vector3::new(turn.cos(), turn.sin(), 0.0));
+            EndCut::Saddle(Saddle { axis, radius: 5.0, above })
+        };
+        for turn in [0.0, 0.0004, 0.03, 0.065, 0.4, 1.2, 1.6, 2.9] {
+            let bar = Loft::prism(Outline::circle(5.0), vec![Outline::circle(4.0)], 30.0);
+            let bar = Loft { start: mouth(0.3, false), end: mouth(0.3 + turn, true), ..bar };
+            let (points, _) = loft::triangulate(&bar).unwrap();
+            // The tips reach to the axes of the members.
+            let low = points.iter().map(|p| p.z).fold(f64::MAX, f64::min);
+            let high = points.iter().map(|p| p.z).fold(f64::MIN, f64::max);
+            assert!(low + 5.0 < 1e-6 && 35.0 - high < 0.005, "{turn}: {low} to {high}");
+            assert_like(Body::Loft(bar), 0.005);
         }
     }
 
