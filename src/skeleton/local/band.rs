@@ -15,7 +15,7 @@ use nalgebra::Point3;
 
 use crate::mesh::HalfEdgeMesh;
 use crate::mesh::contour::{Contour, Extent, Plane, follow};
-use crate::mesh::id::{FaceId, HalfEdgeId};
+use crate::mesh::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A closed front: a plane with the one contour that belongs to the branch.
 #[derive(Clone, Debug)]
@@ -47,16 +47,26 @@ const ROUGHNESS: f64 = 0.22;
 pub(crate) struct Band {
     /// Faces of the last flood.
     pub(crate) faces: Vec<FaceId>,
+    /// The same, by the sides over which they were reached.
+    reached: Vec<Reached>,
     face_stamp: Vec<u32>,
     side_stamp: Vec<u32>,
     stamp: u32,
     spare: Contour,
 }
 
+/// A side over which a triangle was reached, and the levels of its ends.
+#[derive(Clone, Copy, Debug)]
+struct Reached {
+    side: HalfEdgeId,
+    levels: [u8; 2],
+}
+
 impl Band {
     pub(crate) fn new(mesh: &HalfEdgeMesh) -> Self {
         Self {
             faces: Vec::new(),
+            reached: Vec::new(),
             face_stamp: vec![0; mesh.face_count()],
             side_stamp: vec![0; 3 * mesh.face_count()],
             stamp: 0,
@@ -78,84 +88,116 @@ impl Band {
             return Verdict::FrontsCross;
         }
         self.begin();
-        let (on_lower, on_upper) = (self.stamp, self.stamp + 1);
-        self.stamp += 1;
-        lower.contour.half_edges.iter().for_each(|h| self.side_stamp[h.index()] = on_lower);
-        upper.contour.half_edges.iter().for_each(|h| self.side_stamp[h.index()] = on_upper);
-        lower.contour.half_edges.iter().for_each(|h| self.reach(h.face()));
-        let rough = ROUGHNESS * lower.extent.radius().min(upper.extent.radius());
+        let fronts = [lower, upper].into_iter().flat_map(|front| &front.contour.half_edges);
+        fronts.for_each(|h| self.side_stamp[h.index()] = self.stamp);
+        let limits = Limits {
+            mesh,
+            lower: &lower.plane,
+            upper: &upper.plane,
+            rough: ROUGHNESS * lower.extent.radius().min(upper.extent.radius()),
+        };
+        for &h in &lower.contour.half_edges {
+            self.reach(h, limits.levels(h));
+        }
         let mut next = 0;
-        while let Some(&face) = self.faces.get(next) {
+        while let Some(&Reached { side, levels: [from, to] }) = self.reached.get(next) {
             next += 1;
-            if !is_own(face) {
+            if !is_own(side.face()) {
                 return Verdict::Foreign;
             }
-            let heights = heights(mesh, face, &lower.plane, &upper.plane);
-            if heights.iter().all(|[lower, upper]| *lower >= 0.0 && *upper < 0.0) {
-                // Most triangles of fine meshes lie in the band as a whole.
-                face.half_edges().into_iter().for_each(|h| self.reach(mesh.neighbour(h)));
-                continue;
-            }
-            for side in sides(mesh, face, heights) {
-                for (over_upper, key) in side.ways_out().into_iter().flatten() {
-                    if self.side_stamp[key.index()] >= on_lower {
-                        continue;
-                    }
-                    let (plane, passed) = if over_upper {
-                        (&upper.plane, on_upper)
-                    } else {
-                        (&lower.plane, on_lower)
-                    };
-                    if !self.cap_roughness(mesh, plane, over_upper, key, rough, passed) {
-                        return Verdict::Splits;
-                    }
-                }
-                if side.lies_in_band() {
-                    self.reach(side.twin.face());
-                }
+            let (after, before) = (side.next(), side.previous());
+            let apex = limits.level(mesh.origin(before));
+            if !self.go_over(&limits, after, [to, apex])
+                || !self.go_over(&limits, before, [apex, from])
+            {
+                return Verdict::Splits;
             }
         }
         Verdict::Tube
     }
 
     fn begin(&mut self) {
-        if self.stamp > u32::MAX - 4 {
+        if self.stamp == u32::MAX {
             self.face_stamp.fill(0);
             self.side_stamp.fill(0);
             self.stamp = 0;
         }
         self.stamp += 1;
         self.faces.clear();
+        self.reached.clear();
     }
 
-    fn reach(&mut self, face: FaceId) {
+    /// Floods the triangle of a side, given the levels of its ends.
+    fn reach(&mut self, side: HalfEdgeId, levels: [u8; 2]) {
+        let face = side.face();
         let seen = &mut self.face_stamp[face.index()];
-        if *seen < self.stamp {
+        if *seen != self.stamp {
             *seen = self.stamp;
             self.faces.push(face);
+            self.reached.push(Reached { side, levels });
         }
     }
 
-    /// Whether the loop over `key` is the foot of a small bump that closes beyond the plane; if so
-    /// the loop is marked as passed.
-    fn cap_roughness(
-        &mut self,
-        mesh: &HalfEdgeMesh,
-        plane: &Plane,
-        beyond_is_above: bool,
-        key: HalfEdgeId,
-        rough: f64,
-        passed: u32,
-    ) -> bool {
+    /// Goes on over a side with ends at two levels, if it has a part in the band; false where the
+    /// surface leaves the band but along the fronts.
+    #[inline(always)]
+    fn go_over(&mut self, limits: &Limits<'_>, side: HalfEdgeId, [from, to]: [u8; 2]) -> bool {
+        let twin = limits.mesh.twin(side);
+        let is_plain = match from | to {
+            BELOW | ABOVE => return true,
+            BETWEEN => true,
+            OVER_UPPER => self.passes(limits, Over::Upper, if from == ABOVE { side } else { twin }),
+            OVER_LOWER => self.passes(limits, Over::Lower, if from == BELOW { twin } else { side }),
+            _ => return self.go_over_any(limits, side, [from, to]),
+        };
+        if is_plain {
+            self.reach(twin, [to, from]);
+        }
+        is_plain
+    }
+
+    /// Goes on over any side, by the part of it that lies between the planes; long sides need it, and
+    /// few others.
+    #[cold]
+    fn go_over_any(&mut self, limits: &Limits<'_>, side: HalfEdgeId, [from, to]: [u8; 2]) -> bool {
+        let mesh = limits.mesh;
+        let ends = [mesh.origin(side), mesh.target(side)].map(|v| mesh.position(v));
+        let lower = ends.map(|p| limits.lower.height(&p));
+        let upper = ends.map(|p| limits.upper.height(&p));
+        let crosses = |[a, b]: [f64; 2]| (a >= 0.0) != (b >= 0.0);
+        let at_zero_of = |[a, b]: [f64; 2], [c, d]: [f64; 2]| c + a / (a - b) * (d - c);
+        let from_above = |[a, _]: [f64; 2]| if a >= 0.0 { side } else { mesh.twin(side) };
+        let over_upper = crosses(upper) && at_zero_of(upper, lower) >= 0.0;
+        let over_lower = crosses(lower) && at_zero_of(lower, upper) < 0.0;
+        let is_plain = (!over_upper || self.passes(limits, Over::Upper, from_above(upper)))
+            && (!over_lower || self.passes(limits, Over::Lower, from_above(lower)));
+        if is_plain && lies_between(lower, upper) {
+            self.reach(mesh.twin(side), [to, from]);
+        }
+        is_plain
+    }
+
+    /// Whether the surface may leave the band over a side, from above a plane to below it: along a
+    /// front, or into a small bump.
+    fn passes(&mut self, limits: &Limits<'_>, over: Over, side: HalfEdgeId) -> bool {
+        self.side_stamp[side.index()] == self.stamp || self.cap_roughness(limits, over, side)
+    }
+
+    /// Whether the loop over a crossed side is the foot of a small bump that closes beyond the plane;
+    /// if so the loop is marked as passed.
+    #[cold]
+    fn cap_roughness(&mut self, limits: &Limits<'_>, over: Over, side: HalfEdgeId) -> bool {
+        let Limits { mesh, lower, upper, rough } = *limits;
+        let plane = if over == Over::Upper { upper } else { lower };
         let mut contour = std::mem::take(&mut self.spare);
-        let start = mesh.position(mesh.origin(key));
+        let start = mesh.position(mesh.origin(side));
         let mut first = None;
-        let is_small = follow(mesh, plane, key, &mut contour, |p| {
+        let is_small = follow(mesh, plane, side, &mut contour, |p| {
             (p - *first.get_or_insert(*p)).norm() <= 2.0 * rough
         });
-        let closes = is_small && bump_closes(mesh, plane, beyond_is_above, &contour, &start, rough);
+        let closes = is_small && bump_closes(mesh, plane, over, &contour, &start, rough);
         if closes {
-            contour.half_edges.iter().for_each(|h| self.side_stamp[h.index()] = passed);
+            contour.half_edges.iter().for_each(|h| self.side_stamp[h.index()] = self.stamp);
         }
         self.spare = contour;
         closes
@@ -166,13 +208,15 @@ impl Band {
 fn bump_closes(
     mesh: &HalfEdgeMesh,
     plane: &Plane,
-    beyond_is_above: bool,
+    over: Over,
     contour: &Contour,
     near: &Point3<f64>,
     rough: f64,
 ) -> bool {
-    let is_beyond =
-        |h: HalfEdgeId| (plane.height(&mesh.position(mesh.origin(h))) >= 0.0) == beyond_is_above;
+    let is_beyond = |h: HalfEdgeId| {
+        let is_above = plane.height(&mesh.position(mesh.origin(h))) >= 0.0;
+        is_above == (over == Over::Upper)
+    };
     let mut faces: Vec<FaceId> = contour.half_edges.iter().map(|h| h.face()).collect();
     let mut next = 0;
     while let Some(&face) = faces.get(next) {
@@ -197,60 +241,63 @@ fn bump_closes(
     true
 }
 
-/// One side of a triangle against the two planes of a band.
-struct Side {
-    half_edge: HalfEdgeId,
-    twin: HalfEdgeId,
-    /// Heights of origin and target over the lower plane.
-    lower: [f64; 2],
-    /// Heights over the upper plane.
-    upper: [f64; 2],
+/// Where a corner lies, a bit each, so that the levels of both ends of a side are one number.
+const BELOW: u8 = 1;
+const BETWEEN: u8 = 2;
+const ABOVE: u8 = 4;
+/// On a plane, or beyond the line in which the planes meet.
+const ODD: u8 = 8;
+
+/// Sides with one end in the band.
+const OVER_LOWER: u8 = BELOW | BETWEEN;
+const OVER_UPPER: u8 = BETWEEN | ABOVE;
+
+/// The planes that a flood may not pass but along its fronts.
+struct Limits<'a> {
+    mesh: &'a HalfEdgeMesh,
+    lower: &'a Plane,
+    upper: &'a Plane,
+    /// A loop that reaches no farther is roughness, mm.
+    rough: f64,
 }
 
-/// Heights of the corners of a triangle over the lower and the upper plane of a band.
-fn heights(mesh: &HalfEdgeMesh, face: FaceId, lower: &Plane, upper: &Plane) -> [[f64; 2]; 3] {
-    let [a, b, c] = mesh.corners(face);
-    let over = |p: &Point3<f64>| [lower.height(p), upper.height(p)];
-    [over(&a), over(&b), over(&c)]
+/// Over which plane the surface leaves a band.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Over {
+    Lower,
+    Upper,
 }
 
-/// The sides of a triangle, given the heights of its corners.
-fn sides(mesh: &HalfEdgeMesh, face: FaceId, heights: [[f64; 2]; 3]) -> [Side; 3] {
-    let half_edges = face.half_edges();
-    let side = |from: usize, to: usize| {
-        let ([a, c], [b, d]) = (heights[from], heights[to]);
-        let half_edge = half_edges[from];
-        Side { half_edge, twin: mesh.twin(half_edge), lower: [a, b], upper: [c, d] }
-    };
-    [side(0, 1), side(1, 2), side(2, 0)]
-}
-
-impl Side {
-    /// Whether some of the side is above the lower and below the upper plane.
-    fn lies_in_band(&self) -> bool {
-        let (mut from, mut to) = (0.0f64, 1.0f64);
-        for [a, b] in [self.lower, self.upper.map(|x| -x)] {
-            // Keep the part where a + t (b − a) is not negative.
-            if a < 0.0 && b < 0.0 {
-                return false;
-            }
-            if a < 0.0 {
-                from = from.max(a / (a - b));
-            } else if b < 0.0 {
-                to = to.min(a / (a - b));
-            }
+impl Limits<'_> {
+    fn level(&self, vertex: VertexId) -> u8 {
+        let p = self.mesh.position(vertex);
+        let (lower, upper) = (self.lower.height(&p), self.upper.height(&p));
+        if lower == 0.0 || upper == 0.0 || (lower < 0.0 && upper > 0.0) {
+            return ODD;
         }
-        from < to
+        let planes_below = u8::from(lower > 0.0) + u8::from(upper > 0.0);
+        BELOW << planes_below
     }
 
-    /// Where the side leaves the band: over the upper (true) or the lower plane, and the crossed
-    /// side from above to below that names the crossing.
-    fn ways_out(&self) -> [Option<(bool, HalfEdgeId)>; 2] {
-        let crosses = |[a, b]: [f64; 2]| (a >= 0.0) != (b >= 0.0);
-        let at_zero_of = |[a, b]: [f64; 2], [c, d]: [f64; 2]| c + a / (a - b) * (d - c);
-        let key = |[a, _]: [f64; 2]| if a >= 0.0 { self.half_edge } else { self.twin };
-        let over_upper = crosses(self.upper) && at_zero_of(self.upper, self.lower) >= 0.0;
-        let over_lower = crosses(self.lower) && at_zero_of(self.lower, self.upper) < 0.0;
-        [over_upper.then(|| (true, key(self.upper))), over_lower.then(|| (false, key(self.lower)))]
+    /// The levels of the ends of a side.
+    fn levels(&self, side: HalfEdgeId) -> [u8; 2] {
+        [self.level(self.mesh.origin(side)), self.level(self.mesh.target(side))]
     }
+}
+
+/// Whether some of a side lies above the lower and below the upper plane, by the heights of its ends.
+fn lies_between(lower: [f64; 2], upper: [f64; 2]) -> bool {
+    let (mut from, mut to) = (0.0f64, 1.0f64);
+    for [a, b] in [lower, upper.map(|x| -x)] {
+        // Keep the part where a + t (b − a) is not negative.
+        if a < 0.0 && b < 0.0 {
+            return false;
+        }
+        if a < 0.0 {
+            from = from.max(a / (a - b));
+        } else if b < 0.0 {
+            to = to.min(a / (a - b));
+        }
+    }
+    from < to
 }
