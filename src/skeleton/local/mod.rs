@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | 1 | every place of the surface is asked whether it lies on a rod | `seed` |
 //! | 2 | from there a front marches both ways to the ends of the rod and claims the surface | `march`, `band`, `claim` |
-//! | 3 | the surface is cut along one front of each rod; pieces with a handle are searched again | `patch`, `search` |
+//! | 3 | the surface is cut along one front of each rod; pieces with a handle are searched again | `cutting`, `patch`, `search` |
 //! | 4 | pieces become hubs, rods become runs; false joints go | `draft`, `simplify` |
 //! | 5 | joints are placed where the straight axes of their runs meet (§5.2.6), or in the middle of the material | `axis`, `junction`, `centre` |
 //! | 6 | points are spread along the runs and moved to the centroids of their sections (§5.2.5) | `sample` |
@@ -25,6 +25,7 @@ mod band;
 mod centre;
 mod claim;
 mod curve;
+mod cutting;
 mod draft;
 mod junction;
 mod march;

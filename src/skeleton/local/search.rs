@@ -97,8 +97,7 @@ pub(crate) fn find_tubes(
             if !open.contains(&true) {
                 continue;
             }
-            let is_open =
-                |f: FaceId| cut.of_face[f.index()].is_none_or(|piece| open[piece as usize]);
+            let is_open = |f: FaceId| cut.of_face(f).is_none_or(|piece| open[piece]);
             places(surface, is_open, area_each)
         } else {
             places(surface, |_| true, area_each)
