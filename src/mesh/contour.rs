@@ -141,13 +141,23 @@ pub fn contour_round(
     plane: &Plane,
     reach: f64,
 ) -> Option<Contour> {
+    let mut contour = Contour::default();
+    let start = first_met(mesh, tree, plane, reach)?;
+    closed_round(mesh, plane, start, reach, &mut contour).then_some(contour)
+}
+
+/// The crossed side of a contour that is met within `reach` of the point of a plane.
+pub fn first_met(
+    mesh: &HalfEdgeMesh,
+    tree: &TriangleTree,
+    plane: &Plane,
+    reach: f64,
+) -> Option<HalfEdgeId> {
     let (u, v) = plane.axes();
     // Not along an axis: flat faces of CAD models lie there.
     let far = plane.point + (u * 0.8 + v * 0.6) * reach;
     let hit = tree.first_crossing(&plane.point, &far)?;
-    let start = entry(mesh, plane, FaceId(hit.face))?;
-    let mut contour = Contour::default();
-    closed_round(mesh, plane, start, reach, &mut contour).then_some(contour)
+    entry(mesh, plane, FaceId(hit.face))
 }
 
 /// Follows the contour over the crossed side `start`; whether it encloses the plane's point within
@@ -159,7 +169,8 @@ pub fn closed_round(
     reach: f64,
     contour: &mut Contour,
 ) -> bool {
-    let fits = follow(mesh, plane, start, contour, |p| (p - plane.point).norm() <= reach);
+    let is_near = |p: &Point3<f64>| (p - plane.point).norm_squared() <= reach * reach;
+    let fits = follow(mesh, plane, start, contour, is_near);
     fits && contour.points.len() >= 3 && contour.encloses(plane)
 }
 

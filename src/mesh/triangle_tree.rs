@@ -3,6 +3,8 @@
 //! The tree is a plain median split. Bounds are single precision, rounded outwards: half the
 //! memory, and never a missed triangle.
 
+use std::cell::Cell;
+
 use nalgebra::{Point3, Vector3};
 
 use super::contour::Plane;
@@ -156,17 +158,17 @@ impl TriangleTree {
     /// The crossing of the segment `a b` nearest to `a`, `at` in 0..1 along it.
     pub fn first_crossing(&self, a: &Point3<f64>, b: &Point3<f64>) -> Option<Crossing> {
         let ray = Ray::new(a, &(b - a));
-        let mut first: Option<Crossing> = None;
+        let first: Cell<Option<Crossing>> = Cell::new(None);
         self.visit_leaves(
-            |n| ray.may_meet(n, 1.0),
+            |n| ray.may_meet(n, first.get().map_or(1.0, |f| f.at)),
             |face| match ray.cross(&self.corners[face as usize]) {
-                Hit::At(at, sign) if at <= 1.0 && first.is_none_or(|f| at < f.at) => {
-                    first = Some(Crossing { face, at, sign });
+                Hit::At(at, sign) if at <= 1.0 && first.get().is_none_or(|f| at < f.at) => {
+                    first.set(Some(Crossing { face, at, sign }));
                 }
                 _ => {}
             },
         );
-        first
+        first.get()
     }
 
     /// The nearest point of the surface, its distance and its triangle; `None` without triangles.
@@ -298,13 +300,15 @@ impl Ray {
     }
 
     fn may_meet(&self, node: &TreeNode, reach: f64) -> bool {
-        let (mut enter, mut leave) = (0.0f64, reach);
+        // A NaN (0 · ∞) is neither less nor more: it leaves the interval as it is.
+        let less = |a: f64, b: f64| if a < b { a } else { b };
+        let more = |a: f64, b: f64| if a > b { a } else { b };
+        let (mut enter, mut leave) = (0.0, reach);
         for k in 0..3 {
-            let near = (f64::from(node.low[k]) - self.origin[k]) * self.inverse[k];
-            let far = (f64::from(node.high[k]) - self.origin[k]) * self.inverse[k];
-            // A NaN (0 · ∞) leaves the interval as it is.
-            enter = enter.max(near.min(far));
-            leave = leave.min(near.max(far));
+            let low = (f64::from(node.low[k]) - self.origin[k]) * self.inverse[k];
+            let high = (f64::from(node.high[k]) - self.origin[k]) * self.inverse[k];
+            enter = more(less(low, high), enter);
+            leave = less(more(low, high), leave);
         }
         enter <= leave
     }

@@ -83,6 +83,8 @@ pub(crate) struct Known {
     straight: Vec<bool>,
     /// Whether just the points next to the hubs are wanted.
     ends_only: bool,
+    /// The contour cut last.
+    contour: Contour,
 }
 
 impl Known {
@@ -105,7 +107,7 @@ pub(crate) fn moved(
     trend: &Trend,
     hubs: [&Hub; 2],
     step: f64,
-    Known { cuts, straight, ends_only }: &mut Known,
+    Known { cuts, straight, ends_only, contour }: &mut Known,
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Moved, SkeletonError> {
     let curve = base_curve(surface, run, trend, hubs, straight, watch)?;
@@ -119,7 +121,6 @@ pub(crate) fn moved(
     let mut radii: Vec<f64> = (0..=last).map(|i| trend.at(i as f64 / last as f64)).collect();
     let mut shares = vec![0.0; last + 1];
     let stations = Stations::of(run);
-    let mut contour = Contour::default();
     for left in (0..ROUNDS).rev() {
         // The same number of points at equal distances.
         let old = Polyline::through(&points).spaced(last);
@@ -138,7 +139,7 @@ pub(crate) fn moved(
             let cut = cuts[i].take().filter(|cut| cut.hardly_differs(&plane, wanted));
             let cut = cut.unwrap_or_else(|| Cut {
                 plane,
-                section: section_round(surface, &stations, &plane, part, &mut contour),
+                section: section_round(surface, &stations, &plane, part, contour),
             });
             let own = cut.carried_to(&plane).filter(|s| (s.centroid - old[i]).norm() <= s.radius());
             cuts[i] = Some(cut);

@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::curve::way_to_each;
 use super::draft::{Run, Station};
-use crate::mesh::contour::{Contour, Extent, Plane, closed_round, contour_round, entry};
+use crate::mesh::contour::{Contour, Extent, Plane, closed_round, entry, first_met};
 use crate::mesh::id::HalfEdgeId;
 use crate::mesh::{HalfEdgeMesh, Surface};
 
@@ -65,10 +65,12 @@ pub(crate) fn section_round(
 ) -> Option<Extent> {
     let nearest = stations.nearest(&plane.point, part)?;
     let reach = REACH * nearest.reach;
-    let is_near = approach(&surface.mesh, plane, nearest.side)
-        .is_some_and(|start| closed_round(&surface.mesh, plane, start, reach, contour));
-    if !is_near {
-        *contour = contour_round(&surface.mesh, &surface.tree, plane, reach)?;
+    let Surface { mesh, tree, .. } = surface;
+    let mut is_closed = |start| closed_round(mesh, plane, start, reach, contour);
+    if !approach(mesh, plane, nearest.side).is_some_and(&mut is_closed)
+        && !first_met(mesh, tree, plane, reach).is_some_and(is_closed)
+    {
+        return None;
     }
     if contour.half_edges.iter().any(|h| !surface.labels.is_design(h.face())) {
         return None;
@@ -85,16 +87,16 @@ fn approach(mesh: &HalfEdgeMesh, plane: &Plane, from: HalfEdgeId) -> Option<Half
     let height = |h: HalfEdgeId| plane.height(&mesh.position(mesh.origin(h)));
     // All corners lie on one side: walk the other way, down from above or up from below.
     let side = if height(from) >= 0.0 { 1.0 } else { -1.0 };
-    let mut at = from;
+    let mut at = (from, side * height(from));
     loop {
-        let next = mesh
-            .fan(at)
-            .map(|h| h.next())
-            .fold(at, |best, h| if side * height(h) < side * height(best) { h } else { best });
-        if next == at {
+        let next = mesh.fan(at.0).map(HalfEdgeId::next).fold(at, |best, h| {
+            let away = side * height(h);
+            if away < best.1 { (h, away) } else { best }
+        });
+        if next.0 == at.0 {
             return None;
         }
-        if let Some(start) = entry(mesh, plane, next.face()) {
+        if let Some(start) = entry(mesh, plane, next.0.face()) {
             return Some(start);
         }
         at = next;

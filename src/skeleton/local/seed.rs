@@ -65,7 +65,7 @@ impl March<'_> {
     ) -> Option<Front> {
         let plane = Plane::new(place.point, direction);
         let start = entry(&self.surface.mesh, &plane, place.face)?;
-        self.front(plane, start, |p| (p - place.point).norm() <= limit)
+        self.front(plane, start, |p| (p - place.point).norm_squared() <= limit * limit)
     }
 }
 
