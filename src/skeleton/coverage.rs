@@ -37,14 +37,12 @@ pub(super) fn uncovered(
     let branches: Vec<Segment> =
         skeleton.segments().map(|s| Segment::of(skeleton, s, reach)).collect();
     let mut far = Vec::new();
-    // The next place lies near the last one, mostly, and near the same branch.
+    // The next place lies near the last one, mostly, and near the same branch or the next.
     let mut near = 0;
     for Place { point, .. } in &places {
         keep_on(observer)?;
-        if branches.get(near).is_some_and(|s| s.beyond(point) <= 0.0) {
-            continue;
-        }
-        match branches.iter().position(|s| s.beyond(point) <= 0.0) {
+        let mut from_there_on = (near..branches.len()).chain(0..near);
+        match from_there_on.find(|&i| branches[i].beyond(point) <= 0.0) {
             Some(other) => near = other,
             None => {
                 let beyond = branches.iter().map(|s| s.beyond(point)).fold(f64::INFINITY, f64::min);

@@ -27,37 +27,38 @@ pub(crate) fn places(
 ) -> Vec<Place> {
     let area_each = area_each.max(surface.design_area() / MOST_PLACES);
     let mut places = Vec::new();
+    // Parts of the triangle that are still to be looked at.
+    let mut left: Vec<[Point3<f64>; 3]> = Vec::new();
     let mut due = 0.5;
     let is_design = |f: &FaceId| surface.labels.is_design(*f);
     for face in surface.mesh.faces().filter(is_design).filter(|f| is_wanted(*f)) {
-        spread(face, surface.mesh.corners(face), area_each, &mut due, &mut places);
+        let mut part = Some(surface.mesh.corners(face));
+        while let Some([a, b, c]) = part {
+            let area = 0.5 * (b - a).cross(&(c - a)).norm();
+            if area > area_each && area.is_finite() {
+                let [first, second] = halves([a, b, c]);
+                part = Some(first);
+                left.push(second);
+                continue;
+            }
+            due += area / area_each;
+            if due >= 1.0 {
+                due -= 1.0;
+                let sum = a.coords + b.coords + c.coords;
+                places.push(Place { face, point: Point3::from(sum / 3.0) });
+            }
+            part = left.pop();
+        }
     }
     places
 }
 
-fn spread(
-    face: FaceId,
-    [a, b, c]: [Point3<f64>; 3],
-    area_each: f64,
-    due: &mut f64,
-    places: &mut Vec<Place>,
-) {
-    let area = 0.5 * (b - a).cross(&(c - a)).norm();
-    if area > area_each && area.is_finite() {
-        // Halve the longest side, which is turned to lie between a and b.
-        let corners = [a, b, c];
-        let first = longest_side(&corners);
-        let [a, b, c] = [0, 1, 2].map(|i| corners[(first + i) % 3]);
-        let m = nalgebra::center(&a, &b);
-        spread(face, [a, m, c], area_each, due, places);
-        spread(face, [m, b, c], area_each, due, places);
-        return;
-    }
-    *due += area / area_each;
-    if *due >= 1.0 {
-        *due -= 1.0;
-        places.push(Place { face, point: Point3::from((a.coords + b.coords + c.coords) / 3.0) });
-    }
+/// A triangle cut in two across its longest side.
+fn halves(corners: [Point3<f64>; 3]) -> [[Point3<f64>; 3]; 2] {
+    let first = longest_side(&corners);
+    let [a, b, c] = [0, 1, 2].map(|i| corners[(first + i) % 3]);
+    let m = nalgebra::center(&a, &b);
+    [[a, m, c], [m, b, c]]
 }
 
 /// The first of the longest sides of a triangle, equal ones found equal in spite of rounding.

@@ -341,21 +341,21 @@ fn behind(fronts: &[Front], distance: f64) -> &Front {
 /// From a triangle cut by `lower`, climbs over the surface to one cut by `upper`; its entry side.
 fn climb(mesh: &HalfEdgeMesh, lower: &Plane, upper: &Plane, face: FaceId) -> Option<HalfEdgeId> {
     let height = |h: HalfEdgeId| lower.height(&mesh.position(mesh.origin(h)));
+    let higher = |best: (HalfEdgeId, f64), h: HalfEdgeId| {
+        let at = height(h);
+        if at > best.1 { (h, at) } else { best }
+    };
     let [a, b, c] = face.half_edges();
-    let mut top = if height(a) >= height(b) { a } else { b };
-    top = if height(c) > height(top) { c } else { top };
+    let mut top = [b, c].into_iter().fold((a, height(a)), higher);
     loop {
-        if upper.height(&mesh.position(mesh.origin(top))) >= 0.0 {
+        if upper.height(&mesh.position(mesh.origin(top.0))) >= 0.0 {
             // The triangle of `top` also has the vertex climbed from, which lies below.
-            return entry(mesh, upper, top.face());
+            return entry(mesh, upper, top.0.face());
         }
-        let higher = mesh
-            .fan(top)
-            .map(|h| h.next())
-            .fold(top, |best, h| if height(h) > height(best) { h } else { best });
-        if higher == top {
+        let next = mesh.fan(top.0).map(HalfEdgeId::next).fold(top, higher);
+        if next.0 == top.0 {
             return None;
         }
-        top = higher;
+        top = next;
     }
 }
