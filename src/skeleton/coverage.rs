@@ -34,16 +34,15 @@ pub(super) fn uncovered(
 ) -> Result<Option<Finding>, SkeletonError> {
     let places = places(surface, |_| true, surface.design_area() / PLACES);
     let reach = REACH * surface.mean_radius();
-    let branches: Vec<Segment> =
+    let mut branches: Vec<Segment> =
         skeleton.segments().map(|s| Segment::of(skeleton, s, reach)).collect();
     let mut far = Vec::new();
-    // The next place lies near the last one, mostly, and near the same branch or the next.
-    let mut near = 0;
     for Place { point, .. } in &places {
         keep_on(observer)?;
-        let mut from_there_on = (near..branches.len()).chain(0..near);
-        match from_there_on.find(|&i| branches[i].beyond(point) <= 0.0) {
-            Some(other) => near = other,
+        match branches.iter().position(|s| s.beyond(point) <= 0.0) {
+            // The surface is numbered outwards along several branches at once: those met last are
+            // asked first.
+            Some(met) => branches[..=met].rotate_right(1),
             None => {
                 let beyond = branches.iter().map(|s| s.beyond(point)).fold(f64::INFINITY, f64::min);
                 far.push((beyond, *point));

@@ -89,14 +89,10 @@ fn axis_of(mesh: &HalfEdgeMesh, contour: &Contour) -> Option<Unit<Vector3<f64>>>
     // xx, xy, xz, yy, yz, zz
     let mut squares = [0.0; 6];
     let mut weight = 0.0;
-    let n = contour.points.len();
-    for i in 0..n {
-        let length = (contour.points[(i + 1) % n] - contour.points[i]).norm();
-        let Some(normal) =
-            mesh.doubled_area_vector(contour.half_edges[i].face()).try_normalize(0.0)
-        else {
-            continue;
-        };
+    let next = contour.points.iter().cycle().skip(1);
+    for ((h, point), next) in contour.half_edges.iter().zip(&contour.points).zip(next) {
+        let length = (next - point).norm();
+        let Some(normal) = mesh.doubled_area_vector(h.face()).try_normalize(0.0) else { continue };
         sum += normal * length;
         let [x, y, z] = normal.into();
         for (sum, product) in squares.iter_mut().zip([x * x, x * y, x * z, y * y, y * z, z * z]) {
