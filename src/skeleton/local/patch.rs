@@ -223,3 +223,71 @@ impl<'a> Regions<'a> {
         (Patches { all, of_face, of_region }, euler)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::contour::{Plane, entry, follow};
+    use crate::mesh::{LabelParams, Surface, prepare};
+    use beamwright_formats::{Polygons, RawMesh};
+    use nalgebra::{Point3, Vector3};
+
+    /// A square ring about the z axis: arms from 1 to 2, a thickness of 1.
+    fn ring() -> Surface {
+        let corner = |i: usize| [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]][i % 4];
+        let mut positions = Vec::new();
+        for (half_width, z) in [(2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 0.0)] {
+            positions
+                .extend((0..4).map(|i| corner(i).map(|x| x * half_width)).map(|[x, y]| [x, y, z]));
+        }
+        let mut faces = Polygons::default();
+        for row in 0..4 {
+            for i in 0..4 {
+                let at = |row: usize, i: usize| (4 * (row % 4) + i % 4) as u32;
+                faces.push([at(row, i), at(row, i + 1), at(row + 1, i + 1), at(row + 1, i)]);
+            }
+        }
+        let raw = RawMesh { positions, faces, ..RawMesh::default() };
+        prepare(&raw, &LabelParams::default()).expect("a closed mesh")
+    }
+
+    /// The contour across the arm on one side of the plane x = 0.
+    fn across(surface: &Surface, side: f64) -> Contour {
+        let plane = Plane::new(Point3::new(0.1, 0.0, 0.0), Vector3::x_axis());
+        let is_on_side = |f: &FaceId| surface.mesh.corners(*f).iter().all(|p| p.y * side > 0.0);
+        let mut faces = surface.mesh.faces().filter(is_on_side);
+        let start = faces.find_map(|f| entry(&surface.mesh, &plane, f)).expect("a cut triangle");
+        let mut contour = Contour::default();
+        assert!(follow(&surface.mesh, &plane, start, &mut contour, |_| true));
+        contour
+    }
+
+    fn pieces(surface: &Surface, cuts: &[&Contour]) -> Vec<Patch> {
+        patches(&surface.mesh, |_| true, cuts, &[]).all
+    }
+
+    #[test]
+    fn an_uncut_ring_is_one_piece_with_a_handle() {
+        let found = pieces(&ring(), &[]);
+        assert_eq!(found, [Patch { genus: 1, ..Patch::default() }]);
+    }
+
+    #[test]
+    fn a_ring_cut_once_is_one_piece_without_a_handle() {
+        let surface = ring();
+        let found = pieces(&surface, &[&across(&surface, 1.0)]);
+        let [Patch { cuts, genus: 0, .. }] = found.as_slice() else { panic!("{found:?}") };
+        assert_eq!(cuts, &[(0, CutSide::Above), (0, CutSide::Below)]);
+    }
+
+    #[test]
+    fn a_ring_cut_twice_falls_into_two_pieces() {
+        let surface = ring();
+        let found = pieces(&surface, &[&across(&surface, 1.0), &across(&surface, -1.0)]);
+        assert_eq!(found.len(), 2);
+        for piece in &found {
+            let [(0, side), (1, other)] = piece.cuts[..] else { panic!("{piece:?}") };
+            assert_eq!((side, piece.genus), (other, 0));
+        }
+    }
+}
