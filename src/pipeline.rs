@@ -9,13 +9,11 @@ use std::path::{Path, PathBuf};
 use beamwright_formats::{ReadError, ReadOptions, read};
 
 use crate::finding::{Finding, FindingKind};
-use crate::frame::{
-    self, Frame, FrameParams, Normalized, ProfileParams, Section, match_profiles, normalize,
-};
+use crate::frame::{self, Frame, FrameParams, Normalized, ProfileParams, Section};
 use crate::joint::{JointKind, Joints, joints};
 use crate::mesh::indexed::{IndexedMesh, weld};
 use crate::mesh::label::{LabelParams, LabelSource};
-use crate::mesh::{MeshError, Surface, prepare};
+use crate::mesh::{MeshError, Surface, prepare_watched};
 use crate::observer::{Observer, Stage};
 use crate::section::Catalogue;
 use crate::section::catalogue::CatalogueError;
@@ -107,8 +105,13 @@ pub enum PipelineError {
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
     /// A beam finds no profile.
-    #[error("no profile for the beams: {0}")]
-    Match(#[from] MatchError),
+    #[error("no profile for the beams of {}: {source}", path.display())]
+    Match {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: MatchError,
+    },
     /// The observer asked to stop.
     #[error("interrupted")]
     Cancelled,
@@ -130,8 +133,10 @@ pub fn surface(
         labels.second_meshes.push(read_part(file, &settings.read)?);
     }
     step(observer, Stage::Mesh, 0)?;
-    let surface = prepare(&raw, &labels)
-        .map_err(|source| PipelineError::Mesh { path: path.to_owned(), source })?;
+    let surface = prepare_watched(&raw, &labels, observer).map_err(|source| match source {
+        MeshError::Cancelled => PipelineError::Cancelled,
+        source => PipelineError::Mesh { path: path.to_owned(), source },
+    })?;
     step(observer, Stage::Mesh, 1)?;
     Ok(surface)
 }
@@ -174,12 +179,18 @@ pub fn run(
     let catalogue = catalogue(settings)?;
     let (surface, Marched { skeleton, mut findings }) = march(path, settings, observer)?;
     step(observer, Stage::Sections, 0)?;
-    let sections = frame::sections(&surface, &skeleton);
+    let watched = frame::sections_watched(&surface, &skeleton, observer);
+    let sections = unless_stopped(watched)?;
     step(observer, Stage::Frame, 0)?;
-    let Normalized { mut frame, findings: odd } =
-        normalize(&skeleton, &sections, &surface, &settings.frame);
+    let watched =
+        frame::normalize_watched(&skeleton, &sections, &surface, &settings.frame, observer);
+    let Normalized { mut frame, findings: odd } = unless_stopped(watched)?;
     findings.extend(odd);
-    findings.extend(match_profiles(&mut frame, &settings.profiles, &catalogue)?);
+    step(observer, Stage::Frame, 0)?;
+    let no_profile = |source| PipelineError::Match { path: path.to_owned(), source };
+    let watched =
+        frame::match_profiles_watched(&mut frame, &settings.profiles, &catalogue, observer);
+    findings.extend(unless_stopped(watched)?.map_err(no_profile)?);
     let (joints, odd) = joints(&frame, &surface.interfaces, settings.joints);
     findings.extend(odd);
     step(observer, Stage::Frame, 1)?;
@@ -197,10 +208,11 @@ fn catalogue(settings: &Settings) -> Result<Catalogue, PipelineError> {
 }
 
 fn step(observer: &mut impl Observer, stage: Stage, done: usize) -> Result<(), PipelineError> {
-    match observer.progress(stage, done, 1) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(PipelineError::Cancelled),
-    }
+    unless_stopped(observer.progress(stage, done, 1))
+}
+
+fn unless_stopped<T>(watched: ControlFlow<(), T>) -> Result<T, PipelineError> {
+    watched.continue_value().ok_or(PipelineError::Cancelled)
 }
 
 fn breaches_first(findings: &mut [Finding]) {

@@ -51,7 +51,7 @@ impl From<beamwright::pipeline::PipelineError> for Failure {
         use beamwright::pipeline::PipelineError as E;
         let exit = match error {
             E::Cancelled => Exit::Interrupted,
-            E::Params(_) | E::Match(_) => Exit::Usage,
+            E::Params(_) | E::Match { .. } => Exit::Usage,
             _ => Exit::Input,
         };
         Self { exit, message: error.to_string() }

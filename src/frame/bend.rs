@@ -65,37 +65,45 @@ const STRAIGHT_AGAIN: f64 = 0.7;
 /// Takes out corners that have become needless since other nodes moved; whether there was any.
 pub(super) fn rejoin_straight(making: &mut Making<'_>, params: &FrameParams) -> bool {
     let mut joined = false;
-    while let Some([first, second]) = straightest_corner(making, params) {
-        let gone = making.pieces.remove(second);
+    // For every piece how far it and the next are from their straight axis, if they may be one.
+    let mut bends: Vec<Option<f64>> =
+        (0..making.pieces.len()).map(|first| needless(making, first, params)).collect();
+    while let Some(first) = straightest(&bends) {
+        let gone = making.pieces.remove(first + 1);
+        bends.remove(first + 1);
         let piece = &mut making.pieces[first];
         let skipped = making.corner_points[&piece.ends[1]];
         piece.points.push(skipped);
         piece.points.extend(gone.points);
         piece.ends[1] = gone.ends[1];
         joined = true;
+        bends[first] = needless(making, first, params);
+        if let Some(before) = first.checked_sub(1) {
+            bends[before] = needless(making, before, params);
+        }
     }
     joined
 }
 
-/// The two pieces at the corner whose straightening takes their centroids least far from the axis.
-fn straightest_corner(making: &Making<'_>, params: &FrameParams) -> Option<[usize; 2]> {
-    let mut best: Option<(f64, [usize; 2])> = None;
-    for first in 0..making.pieces.len().saturating_sub(1) {
-        let [a, b] = [first, first + 1].map(|i| &making.pieces[i]);
-        let is_corner = a.ends[1] == b.ends[0]
-            && making.corner_points.contains_key(&a.ends[1])
-            && a.ends[0] != b.ends[1];
-        if is_corner {
-            let ends = [a.ends[0], b.ends[1]].map(|n| making.nodes[n].position);
-            let far = [a, b].into_iter().map(|p| farthest_from(making, p, ends));
-            let far = far.fold(0.0, f64::max);
-            let straight = far <= STRAIGHT_AGAIN * params.max_deviation;
-            if straight && best.is_none_or(|(least, _)| far < least) {
-                best = Some((far, [first, first + 1]));
-            }
-        }
+/// The first piece of the corner whose straightening takes its centroids least far from the axis.
+fn straightest(bends: &[Option<f64>]) -> Option<usize> {
+    let found = bends.iter().enumerate().filter_map(|(first, far)| far.map(|far| (first, far)));
+    found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(first, _)| first)
+}
+
+/// How far the centroids of a piece and the next are from one straight axis for both, in half-depths,
+/// if a corner lies between them and is needless.
+fn needless(making: &Making<'_>, first: usize, params: &FrameParams) -> Option<f64> {
+    let [a, b] = [&making.pieces[first], making.pieces.get(first + 1)?];
+    let is_corner = a.ends[1] == b.ends[0]
+        && making.corner_points.contains_key(&a.ends[1])
+        && a.ends[0] != b.ends[1];
+    if !is_corner {
+        return None;
     }
-    best.map(|(_, pair)| pair)
+    let ends = [a.ends[0], b.ends[1]].map(|n| making.nodes[n].position);
+    let far = [a, b].into_iter().map(|p| farthest_from(making, p, ends)).fold(0.0, f64::max);
+    (far <= STRAIGHT_AGAIN * params.max_deviation).then_some(far)
 }
 
 /// Farthest centroid of a piece from an axis, in half-depths.

@@ -25,8 +25,12 @@ const ENDS: f64 = 0.01;
 
 /// Holds nodes that left the material more firmly; whether there was any.
 pub(super) fn hold_nodes_inside(making: &mut Making<'_>, tree: &TriangleTree) -> bool {
+    let mut pieces_at: Vec<Vec<&Piece>> = vec![Vec::new(); making.nodes.len()];
+    for piece in &making.pieces {
+        piece.ends.iter().for_each(|&n| pieces_at[n].push(piece));
+    }
     let mut leaving: Vec<bool> =
-        (0..making.nodes.len()).map(|n| has_left(making, n, tree)).collect();
+        pieces_at.iter().enumerate().map(|(n, pieces)| has_left(making, n, pieces, tree)).collect();
     for piece in &making.pieces {
         if leaves_material(making, piece, tree) {
             piece.ends.iter().for_each(|&n| leaving[n] = true);
@@ -42,15 +46,14 @@ pub(super) fn hold_nodes_inside(making: &mut Making<'_>, tree: &TriangleTree) ->
     held
 }
 
-fn has_left(making: &Making<'_>, node: usize, tree: &TriangleTree) -> bool {
+fn has_left(making: &Making<'_>, node: usize, pieces: &[&Piece], tree: &TriangleTree) -> bool {
     let (at, anchor) = (making.nodes[node].position, &making.anchors[node]);
     match making.nodes[node].kind {
         NodeKind::Interface => (at - anchor.place).norm() > FARTHEST_SLIDE * anchor.radius,
         NodeKind::End => false,
         NodeKind::Bend if (at - anchor.place).norm() > anchor.radius => true,
         NodeKind::Junction | NodeKind::Bend => {
-            let mut own = making.pieces.iter().filter(|p| p.ends.contains(&node));
-            !tree.contains(&at) || own.any(|p| making.is_beyond_an_interface(node, p))
+            !tree.contains(&at) || pieces.iter().any(|p| making.is_beyond_an_interface(node, p))
         }
     }
 }

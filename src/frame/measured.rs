@@ -15,7 +15,8 @@ const OUTLINE_POINTS: usize = 48;
 /// so much that its sides lie a quarter percent too far out; four times as many leave a sixteenth.
 const FINE_POINTS: usize = 192;
 
-/// What the sections of a beam say together; `None` without a section.
+/// What the sections of a beam say together; `None` without a section, or where they are torn so that
+/// no bar can have what they say.
 ///
 /// A and the second moments are means over the sections, J is that of the mean contour.
 pub(super) fn measured(section: &BeamSection) -> Option<MatchTarget> {
@@ -29,7 +30,7 @@ pub(super) fn measured(section: &BeamSection) -> Option<MatchTarget> {
         let outline = average_outline(&contours(section), FINE_POINTS).ok();
         outline.and_then(|fine| worn(fine.points())).or(Some(coarse))
     });
-    Some(MatchTarget {
+    let target = MatchTarget {
         area: section.mean.area,
         i_1,
         i_2,
@@ -38,7 +39,8 @@ pub(super) fn measured(section: &BeamSection) -> Option<MatchTarget> {
         contours: Some(Contours::solid(contour)),
         facets: tessellated(section),
         worn,
-    })
+    };
+    target.check().is_ok().then_some(target)
 }
 
 /// Sides of the polygon that more than half of the sections of a beam are.

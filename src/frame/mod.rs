@@ -40,9 +40,12 @@ pub mod volume;
 
 pub use beam_section::{BeamAxes, BeamSection, BeamStation};
 pub use moments::Moments;
+pub(crate) use normalize::normalize_watched;
 pub use normalize::{Normalized, normalize};
 pub use params::{FrameParams, ProfileParams};
 pub use profiles::match_profiles;
+pub(crate) use profiles::match_profiles_watched;
+pub(crate) use section_at::sections_watched;
 pub use section_at::{Section, sections};
 pub use shape::{BeamShape, Loft};
 pub use volume::{BeamVolumes, volumes};

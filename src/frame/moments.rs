@@ -15,6 +15,10 @@ pub struct Moments {
     pub i_yz: f64,
 }
 
+/// Part by which rounding may bring the moments of a round section below those of the disc: polygons of
+/// a thousand corners lie above it by 1e-11.
+const ROUNDING: f64 = 1e-9;
+
 impl Moments {
     /// Moments of a polygon about its centroid (Green's theorem); counter-clockwise is positive.
     pub fn of_polygon(polygon: &[Point2<f64>]) -> Self {
@@ -36,6 +40,18 @@ impl Moments {
             m.i_yz -= s_y * s_z / m.area;
         }
         m
+    }
+
+    /// Whether a region of the plane can have them: its second moments are positive, and no less than
+    /// those of the ellipse that has its area, I_1 I_2 ≥ (A² / 4π)².
+    ///
+    /// Loops of a contour that crosses itself count against each other, or twice.
+    pub(crate) fn is_of_a_region(&self) -> bool {
+        let (_, i_2, _) = self.principal();
+        let product = self.i_yy * self.i_zz - self.i_yz * self.i_yz;
+        let least = self.area * self.area / (4.0 * std::f64::consts::PI);
+        let is_as_large = product >= (1.0 - ROUNDING) * least * least;
+        self.area > 0.0 && i_2 > 0.0 && is_as_large && product.is_finite()
     }
 
     /// Σ of parts, each times its factor; a mean where the factors add up to 1.
@@ -105,6 +121,29 @@ mod tests {
         assert!((m.area - 60.0).abs() < 1e-9);
         assert!((m.i_yy - 6.0 * 1000.0 / 12.0).abs() < 1e-9);
         assert!((m.i_zz - 10.0 * 216.0 / 12.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_contour_whose_loops_count_against_each_other_bounds_no_region() {
+        let points = |corners: &[[f64; 2]]| -> Vec<Point2<f64>> {
+            corners.iter().map(|&[y, z]| Point2::new(y, z)).collect()
+        };
+        let round = |turns: f64| -> Vec<Point2<f64>> {
+            let at = |i: u32| turns * std::f64::consts::TAU * f64::from(i) / 2000.0;
+            (0..2000).map(|i| Point2::new(at(i).cos(), at(i).sin())).collect()
+        };
+        let eight = [[0.0, 0.0], [10.0, 0.0], [10.0, 4.0], [-9.0, -20.0], [-9.0, 20.0], [0.0, 5.0]];
+        for (contour, is_region) in [
+            (rectangle(6.0, 10.0, 0.3), true),
+            (rectangle(1e-3, 10.0, 0.3), true),
+            (round(1.0), true),
+            (round(2.0), false),
+            (points(&eight), false),
+            (points(&[[0.0, 0.0], [4.0, 0.0], [8.0, 0.0]]), false),
+        ] {
+            let found = Moments::of_polygon(&contour);
+            assert_eq!(found.is_of_a_region(), is_region, "{found:?}");
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Normalization: bent branches become straight beams between shared nodes.
 
+use std::ops::ControlFlow;
+
 use super::beam_section::{BeamAxes, BeamSection};
 use super::measured::measured;
 use super::params::FrameParams;
@@ -9,6 +11,7 @@ use super::shape::BeamShape;
 use super::{Beam, Frame, NodeId, Passage, bend, continuous, deviation, direction, hold};
 use crate::finding::Finding;
 use crate::mesh::Surface;
+use crate::observer::Observer;
 use crate::skeleton::Skeleton;
 
 /// A frame and what is odd about it.
@@ -37,21 +40,37 @@ pub fn normalize(
     surface: &Surface,
     params: &FrameParams,
 ) -> Normalized {
+    let watched = normalize_watched(skeleton, sections, surface, params, &mut ());
+    watched.continue_value().unwrap_or_default()
+}
+
+/// The same, unless the observer asks to stop.
+pub(crate) fn normalize_watched(
+    skeleton: &Skeleton,
+    sections: &[Option<Section>],
+    surface: &Surface,
+    params: &FrameParams,
+    observer: &mut impl Observer,
+) -> ControlFlow<(), Normalized> {
     let mut making = Making::new(skeleton, sections, &surface.interfaces, params);
     let mut findings = Vec::new();
-    settle(&mut making, surface, params, &mut findings);
+    settle(&mut making, surface, params, &mut findings, observer)?;
     if bend::rejoin_straight(&mut making, params) {
         making.drop_unused_nodes();
-        settle_nodes(&mut making, surface);
+        settle_nodes(&mut making, surface, observer)?;
     }
     making.drop_closed_pieces(&mut findings);
     if params.continuous && continuous::join(&mut making, params) {
-        settle_nodes(&mut making, surface);
+        settle_nodes(&mut making, surface, observer)?;
     }
     deviation::report(&making, params, &mut findings);
     deviation::report_outside(&making, &surface.tree, &mut findings);
-    let beams = making.pieces.iter().map(|p| beam(&making, p, surface)).collect();
-    Normalized { frame: Frame { nodes: making.nodes, beams }, findings }
+    let mut beams = Vec::with_capacity(making.pieces.len());
+    for piece in &making.pieces {
+        observer.keep_on()?;
+        beams.push(beam(&making, piece, surface));
+    }
+    ControlFlow::Continue(Normalized { frame: Frame { nodes: making.nodes, beams }, findings })
 }
 
 /// Solves until every node stays in the material, no piece bends and no two nodes are one.
@@ -60,26 +79,35 @@ fn settle(
     surface: &Surface,
     params: &FrameParams,
     findings: &mut Vec<Finding>,
-) {
+    observer: &mut impl Observer,
+) -> ControlFlow<()> {
     for _ in 0..MOST_ROUNDS {
+        observer.keep_on()?;
         making.solve();
         let again = making.merge_near_nodes(findings)
             || hold::hold_nodes_inside(making, &surface.tree)
             || bend::split_bent(making, params);
         if !again {
-            return;
+            break;
         }
     }
+    ControlFlow::Continue(())
 }
 
 /// Solves until every node stays in the material.
-fn settle_nodes(making: &mut Making<'_>, surface: &Surface) {
+fn settle_nodes(
+    making: &mut Making<'_>,
+    surface: &Surface,
+    observer: &mut impl Observer,
+) -> ControlFlow<()> {
     for _ in 0..MOST_ROUNDS {
+        observer.keep_on()?;
         making.solve();
         if !hold::hold_nodes_inside(making, &surface.tree) {
-            return;
+            break;
         }
     }
+    ControlFlow::Continue(())
 }
 
 fn beam(making: &Making<'_>, piece: &Piece, surface: &Surface) -> Beam {

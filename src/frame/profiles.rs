@@ -6,11 +6,14 @@
 //! 3. With `max_profiles`, the profiles are reduced over the whole frame at least cost.
 //! 4. Tapered lofts get the same family at stations along the beam (`lofts`).
 
+use std::ops::ControlFlow;
+
 use super::params::ProfileParams;
 use super::shape::{BeamShape, Loft};
 use super::{Beam, Frame, lofts};
 use crate::cluster;
 use crate::finding::{Finding, FindingKind};
+use crate::observer::Observer;
 use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
 use crate::section::matching::{
@@ -34,21 +37,48 @@ pub fn match_profiles(
     params: &ProfileParams,
     catalogue: &Catalogue,
 ) -> Result<Vec<Finding>, MatchError> {
+    let watched = match_profiles_watched(frame, params, catalogue, &mut ());
+    watched.continue_value().unwrap_or_else(|| Ok(Vec::new()))
+}
+
+/// The same, unless the observer asks to stop.
+pub(crate) fn match_profiles_watched(
+    frame: &mut Frame,
+    params: &ProfileParams,
+    catalogue: &Catalogue,
+    observer: &mut impl Observer,
+) -> ControlFlow<(), Result<Vec<Finding>, MatchError>> {
+    let groups = groups(frame);
+    let mut matched = Vec::with_capacity(groups.targets.len());
+    for target in &groups.targets {
+        observer.keep_on()?;
+        match match_profile(target, &params.choice, params.mode, catalogue) {
+            Ok(found) => matched.push(found),
+            Err(fault) => return ControlFlow::Continue(Err(fault)),
+        }
+    }
+    ControlFlow::Continue(shape_beams(frame, &groups, matched, params, catalogue))
+}
+
+/// The measured beams, as good as equal ones together.
+fn groups(frame: &Frame) -> Equalized {
+    let measured = frame.beams.iter().filter_map(|b| Some((b.measured.clone()?, b.length)));
+    equalize(&measured.collect::<Vec<_>>(), EQUAL)
+}
+
+/// Gives every beam the shape that its group was matched to.
+fn shape_beams(
+    frame: &mut Frame,
+    groups: &Equalized,
+    mut matched: Vec<Matched>,
+    params: &ProfileParams,
+    catalogue: &Catalogue,
+) -> Result<Vec<Finding>, MatchError> {
     let targets: Vec<Option<MatchTarget>> =
         frame.beams.iter().map(|b| b.measured.clone()).collect();
     let measured: Vec<usize> = (0..targets.len()).filter(|&i| targets[i].is_some()).collect();
-    let pairs: Vec<(MatchTarget, f64)> = measured
-        .iter()
-        .filter_map(|&i| targets[i].clone().map(|t| (t, frame.beams[i].length)))
-        .collect();
-    let groups = equalize(&pairs, EQUAL);
-    let mut matched: Vec<Matched> = groups
-        .targets
-        .iter()
-        .map(|t| match_profile(t, &params.choice, params.mode, catalogue))
-        .collect::<Result<_, _>>()?;
     if let Some(max) = params.max_profiles {
-        reduce(&mut matched, &groups, max, params, catalogue)?;
+        reduce(&mut matched, groups, max, params, catalogue)?;
     }
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); matched.len()];
     for (k, &i) in measured.iter().enumerate() {

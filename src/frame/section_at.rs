@@ -1,9 +1,13 @@
 //! The section of the object at every skeletal point of a branch (thesis §5.2.3).
 
+use std::ops::ControlFlow;
+
 use nalgebra::{Point2, Point3, Unit};
 
+use super::moments::Moments;
 use crate::mesh::Surface;
 use crate::mesh::contour::{Extent, Plane, contour_round};
+use crate::observer::Observer;
 use crate::section::properties::Contours;
 use crate::section::{SectionError, SectionProperties};
 use crate::skeleton::{PointKind, Skeleton};
@@ -52,12 +56,22 @@ impl Section {
 /// along another branch.
 const REACH: f64 = 8.0;
 
-/// The section at every point; `None` at ends and junctions, and where no closed contour surrounds
-/// the point.
+/// The section at every point; `None` at ends and junctions, where no closed contour surrounds the
+/// point, and where the contour crosses itself so that it bounds no region.
 pub fn sections(surface: &Surface, skeleton: &Skeleton) -> Vec<Option<Section>> {
+    sections_watched(surface, skeleton, &mut ()).continue_value().unwrap_or_default()
+}
+
+/// The same, unless the observer asks to stop.
+pub(crate) fn sections_watched(
+    surface: &Surface,
+    skeleton: &Skeleton,
+    observer: &mut impl Observer,
+) -> ControlFlow<(), Vec<Option<Section>>> {
     let mut found = vec![None; skeleton.points.len()];
     for branch in &skeleton.branches {
         for w in branch.points.windows(3) {
+            observer.keep_on()?;
             let [before, at, after] = [w[0], w[1], w[2]].map(|p| skeleton.position(p));
             let point = &skeleton.points[w[1] as usize];
             if point.kind == PointKind::Branch {
@@ -65,7 +79,7 @@ pub fn sections(surface: &Surface, skeleton: &Skeleton) -> Vec<Option<Section>> 
             }
         }
     }
-    found
+    ControlFlow::Continue(found)
 }
 
 fn section(
@@ -78,5 +92,6 @@ fn section(
     let plane = Plane::new(at, Unit::try_new(along, 0.0)?);
     let contour = contour_round(&surface.mesh, &surface.tree, &plane, REACH * radius)?;
     let Extent { centroid, area, .. } = Extent::of(&contour, &plane);
-    (area > 0.0).then_some(Section { point, plane, contour: contour.points, area, centroid })
+    let section = Section { point, plane, contour: contour.points, area, centroid };
+    Moments::of_polygon(&section.outline()).is_of_a_region().then_some(section)
 }

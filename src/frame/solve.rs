@@ -94,6 +94,10 @@ fn strengths(count: usize, pulls: &[Pull]) -> Vec<f64> {
     sums.into_iter().map(|s| if s > 0.0 { s } else { mean }).collect()
 }
 
+/// Most steps of conjugate gradients: a tower of a thousand nodes, one above the other, takes as many
+/// times six of them; a net of more nodes is as quickly solved as its longest chain.
+const MOST_STEPS: usize = 6000;
+
 /// The normal equations, kept as the small blocks they are a sum of.
 struct System {
     /// Blocks on the diagonal.
@@ -185,12 +189,17 @@ impl System {
         let mut rz = dot(&r, &z);
         let goal = 1e-24 * rz;
         // In exact arithmetic 3 n steps are enough; twice as many bound the rest.
-        for _ in 0..6 * n {
+        for _ in 0..MOST_STEPS.min(6 * n) {
             if rz <= goal {
                 break;
             }
             let q = self.times(&p);
-            let alpha = rz / dot(&p, &q);
+            // What is left is rounding once the next step has no stiffness against it.
+            let stiffness = dot(&p, &q);
+            if stiffness.is_nan() || stiffness <= 0.0 {
+                break;
+            }
+            let alpha = rz / stiffness;
             for i in 0..n {
                 x[i] += p[i] * alpha;
                 r[i] -= q[i] * alpha;

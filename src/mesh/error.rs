@@ -60,6 +60,10 @@ pub enum MeshError {
         /// The source of the labels, in words.
         by: &'static str,
     },
+
+    /// The observer asked to stop.
+    #[error("cancelled")]
+    Cancelled,
 }
 
 fn place(p: &Point3<f64>) -> String {

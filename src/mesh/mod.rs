@@ -24,6 +24,7 @@ pub use error::MeshError;
 pub use half_edge::HalfEdgeMesh;
 pub use interface_section::{InterfaceKind, InterfaceSection};
 pub use label::{Label, LabelParams};
+pub(crate) use prepare::prepare_watched;
 pub use prepare::{MeshReport, Surface, prepare};
 pub use set::Labels;
 pub use triangle_tree::TriangleTree;

@@ -116,8 +116,29 @@ fn starts(mesh: &HalfEdgeMesh, shell_of_face: &[u32]) -> Vec<HalfEdgeId> {
     }
     let mut starts: Vec<HalfEdgeId> =
         outermost.into_iter().filter_map(|tied| ruler.first_of(tied)).collect();
-    starts.sort_by(|a, b| ruler.compare(*a, *b));
+    starts = sorted(&starts, &|a, b| ruler.compare(a, b));
     starts
+}
+
+/// Merge sort, stable. Lengths within a tolerance are equal, so that of three each may equal the next
+/// and the last not the first: the sort of the standard library may panic at that.
+fn sorted(
+    all: &[HalfEdgeId],
+    compare: &impl Fn(HalfEdgeId, HalfEdgeId) -> Ordering,
+) -> Vec<HalfEdgeId> {
+    if all.len() < 2 {
+        return all.to_vec();
+    }
+    let (left, right) = all.split_at(all.len() / 2);
+    let (left, right) = (sorted(left, compare), sorted(right, compare));
+    let mut merged = Vec::with_capacity(all.len());
+    let (mut l, mut r) = (left.iter().peekable(), right.iter().peekable());
+    while let (Some(&&a), Some(&&b)) = (l.peek(), r.peek()) {
+        let next = if compare(b, a).is_lt() { r.next() } else { l.next() };
+        merged.extend(next);
+    }
+    merged.extend(l.chain(r));
+    merged
 }
 
 /// Measures from the middle of each shell, so that no other body decides how one is numbered.
@@ -160,7 +181,7 @@ impl<'a> Ruler<'a> {
     /// The half-edge of all whose walk comes first.
     fn first_of(&self, mut tied: Vec<HalfEdgeId>) -> Option<HalfEdgeId> {
         if tied.len() > MOST_STARTS {
-            tied.sort_by(|a, b| self.by_coordinates(*a, *b));
+            tied = sorted(&tied, &|a, b| self.by_coordinates(a, b));
             tied.truncate(MOST_STARTS);
         }
         tied.into_iter().min_by(|a, b| self.compare(*a, *b))
@@ -202,6 +223,19 @@ impl<'a> Ruler<'a> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+
+    #[test]
+    fn lengths_that_equal_only_their_neighbours_do_not_stop_the_sort() {
+        let all: Vec<HalfEdgeId> = (0..500).map(|i| HalfEdgeId(i * 7919 % 500)).collect();
+        let by_tens = |a: HalfEdgeId, b: HalfEdgeId| {
+            if a.0.abs_diff(b.0) <= 10 { Ordering::Equal } else { a.0.cmp(&b.0) }
+        };
+        let mut found: Vec<u32> = sorted(&all, &by_tens).iter().map(|h| h.0).collect();
+        found.sort_unstable();
+        assert_eq!(found, (0..500).collect::<Vec<u32>>());
+        let exact = sorted(&all, &|a, b| a.0.cmp(&b.0));
+        assert!(exact.is_sorted_by_key(|h| h.0));
+    }
 
     /// A box with one corner pulled out, so that no two corners are alike.
     fn lopsided_box() -> (Vec<Point3<f64>>, Vec<[u32; 3]>) {

@@ -32,6 +32,7 @@ use super::orient::{NO_TWIN, Pairing, pair_and_orient};
 use super::set::Labels;
 use super::shell::{Shell, Shells};
 use super::triangle_tree::TriangleTree;
+use crate::observer::Observer;
 
 /// A surface ready for marching.
 #[derive(Clone, Debug)]
@@ -138,7 +139,17 @@ pub struct MeshReport {
 /// # Errors
 /// When the surface is open, not manifold, one-sided or empty beyond what can be mended safely.
 pub fn prepare(raw: &RawMesh, params: &LabelParams) -> Result<Surface, MeshError> {
+    prepare_watched(raw, params, &mut ())
+}
+
+/// The same, unless the observer asks to stop.
+pub(crate) fn prepare_watched(
+    raw: &RawMesh,
+    params: &LabelParams,
+    observer: &mut impl Observer,
+) -> Result<Surface, MeshError> {
     let (mut soup, counts) = weld(raw);
+    keep_on(observer)?;
     let mut report = MeshReport {
         merged_points: counts.merged_points,
         degenerate_triangles: counts.degenerate,
@@ -149,8 +160,16 @@ pub fn prepare(raw: &RawMesh, params: &LabelParams) -> Result<Surface, MeshError
         return Err(MeshError::NoTriangles);
     }
     let twins = make_closed(&mut soup, &mut report)?;
-    choose_outward(&mut soup, twins, &mut report)
-        .and_then(|(soup, twins)| label(soup, twins, raw, params, report))
+    keep_on(observer)?;
+    let (soup, twins) = choose_outward(&mut soup, twins, &mut report)?;
+    keep_on(observer)?;
+    let (mesh, non_design, listed) = label(soup, twins, raw, params, &mut report)?;
+    keep_on(observer)?;
+    Ok(finish(mesh, non_design, listed, report))
+}
+
+fn keep_on(observer: &mut impl Observer) -> Result<(), MeshError> {
+    if observer.keep_on().is_break() { Err(MeshError::Cancelled) } else { Ok(()) }
 }
 
 /// Steps 2 to 5.
@@ -238,14 +257,12 @@ fn choose_outward(
     let inside_out: Vec<bool> =
         shells.of_face.iter().map(|&s| shells.all[s as usize].volume < 0.0).collect();
     let cavity = |s: &Shell| s.depth > 0;
-    for (s, shell) in shells.all.iter().enumerate() {
-        if cavity(shell) {
-            report.cavities.push(Shell { volume: shell.volume.abs(), ..*shell });
-        } else if shell.volume < 0.0 {
-            report.flipped_triangles +=
-                shells.of_face.iter().filter(|&&of| of as usize == s).count();
-        }
+    for shell in shells.all.iter().filter(|s| cavity(s)) {
+        report.cavities.push(Shell { volume: shell.volume.abs(), ..*shell });
     }
+    let turned =
+        |s: &&u32| shells.all[**s as usize].volume < 0.0 && !cavity(&shells.all[**s as usize]);
+    report.flipped_triangles += shells.of_face.iter().filter(turned).count();
     super::orient::flip(&mut soup, &mut twins, &inside_out);
     let keep: Vec<bool> =
         shells.of_face.iter().map(|&s| !cavity(&shells.all[s as usize])).collect();
@@ -275,14 +292,15 @@ fn keep_faces(soup: &mut IndexedMesh, twins: &mut Vec<u32>, keep: &[bool]) {
     drop_unused_points(soup);
 }
 
-/// Steps 7 and 8, after islands are dropped.
+/// Steps 7 and 8, after islands are dropped: the mesh, its non-design faces, and which triangle of the
+/// file each was.
 fn label(
     mut soup: IndexedMesh,
     mut twins: Vec<u32>,
     raw: &RawMesh,
     params: &LabelParams,
-    mut report: MeshReport,
-) -> Result<Surface, MeshError> {
+    report: &mut MeshReport,
+) -> Result<(HalfEdgeMesh, Vec<bool>, Vec<u32>), MeshError> {
     let (mut non_design, counts) = non_design_faces(&soup, raw, params);
     if let (None, Some((source, _))) =
         (counts.used, counts.marked.iter().find(|(_, n)| *n == soup.triangles.len()))
@@ -293,7 +311,7 @@ fn label(
     let mesh = HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins);
     let shells = Shells::new(&mesh);
     (soup.positions, soup.triangles, twins) = mesh.into_parts();
-    let keep = held_faces(&shells, &non_design, &mut report);
+    let keep = held_faces(&shells, &non_design, report);
     keep_faces(&mut soup, &mut twins, &keep);
     let mut marks = keep.iter();
     non_design.retain(|_| *marks.next().unwrap_or(&true));
@@ -302,7 +320,7 @@ fn label(
     let mesh = HalfEdgeMesh::from_parts(soup.positions, soup.triangles, twins);
     let (mesh, listed) = renumbered(mesh, &shell_of_face);
     let non_design = listed.iter().map(|&f| non_design[f as usize]).collect();
-    Ok(finish(mesh, non_design, listed, report))
+    Ok((mesh, non_design, listed))
 }
 
 /// Which faces belong to bodies that a non-design part holds (all, when there are no labels).

@@ -157,17 +157,32 @@ impl TriangleTree {
 
     /// The crossing of the segment `a b` nearest to `a`, `at` in 0..1 along it.
     pub fn first_crossing(&self, a: &Point3<f64>, b: &Point3<f64>) -> Option<Crossing> {
+        self.first_crossing_counted(a, b, &mut 0)
+    }
+
+    /// The same; adds to `looked` how many triangles were asked.
+    pub(crate) fn first_crossing_counted(
+        &self,
+        a: &Point3<f64>,
+        b: &Point3<f64>,
+        looked: &mut usize,
+    ) -> Option<Crossing> {
+        let mut asked = 0;
         let ray = Ray::new(a, &(b - a));
         let first: Cell<Option<Crossing>> = Cell::new(None);
         self.visit_leaves(
             |n| ray.may_meet(n, first.get().map_or(1.0, |f| f.at)),
-            |face| match ray.cross(&self.corners[face as usize]) {
-                Hit::At(at, sign) if at <= 1.0 && first.get().is_none_or(|f| at < f.at) => {
-                    first.set(Some(Crossing { face, at, sign }));
+            |face| {
+                asked += 1;
+                match ray.cross(&self.corners[face as usize]) {
+                    Hit::At(at, sign) if at <= 1.0 && first.get().is_none_or(|f| at < f.at) => {
+                        first.set(Some(Crossing { face, at, sign }));
+                    }
+                    _ => {}
                 }
-                _ => {}
             },
         );
+        *looked += asked;
         first.get()
     }
 

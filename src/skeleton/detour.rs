@@ -29,13 +29,17 @@ const FINENESS: [f64; 3] = [10.0, 20.0, 40.0];
 /// Places looked at on one lattice; enough to fill the ball about the finest one's ends.
 const PLACES: usize = 60_000;
 
-/// Points between `a` and `b`, both inside, over which the way does not cross the surface.
+/// Points between `a` and `b` over which the way does not cross the surface; none where one of the two
+/// lies outside, as on meshes that cross themselves.
 pub(super) fn detour(
     mesh: &HalfEdgeMesh,
     tree: &TriangleTree,
     [a, b]: [&Point3<f64>; 2],
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Option<Vec<Point3<f64>>>, SkeletonError> {
+    if !(tree.contains(a) && tree.contains(b)) {
+        return Ok(None);
+    }
     let Some(axes) = axes(mesh, tree, a, b) else { return Ok(None) };
     for n in FINENESS {
         if let Some(way) = (Lattice { tree, a, b, axes: axes / n }).way(watch)? {
@@ -105,8 +109,10 @@ impl Lattice<'_> {
         let mut open = BinaryHeap::new();
         best.insert(start, (0, start));
         open.push(Reverse((rank(self.left(start)), 0, start)));
+        let mut looked = 0;
         while let Some(Reverse((_, steps, cell))) = open.pop() {
             watch.keep_on()?;
+            watch.looks_left = watch.looks_left.saturating_sub(std::mem::take(&mut looked));
             if best[&cell].0 < steps {
                 continue;
             }
@@ -114,12 +120,15 @@ impl Lattice<'_> {
             if self.left(cell) < 2.0 && !self.tree.is_crossed_by(&here, self.b) {
                 return Ok(Some(cell));
             }
-            if best.len() > most {
+            if best.len() > most || watch.looks_left == 0 {
                 return Ok(None);
             }
             for next in neighbours(cell) {
-                let taken = best.get(&next).is_some_and(|(s, _)| *s <= steps + 1);
-                if taken || self.tree.is_crossed_by(&here, &self.place(next)) {
+                if best.get(&next).is_some_and(|(s, _)| *s <= steps + 1) {
+                    continue;
+                }
+                let there = self.place(next);
+                if self.tree.first_crossing_counted(&here, &there, &mut looked).is_some() {
                     continue;
                 }
                 best.insert(next, (steps + 1, cell));

@@ -30,6 +30,11 @@ use super::mesh::Mesh;
 /// Corners at the two ends of the mid-side nodes 3, 4, 5.
 const SIDES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
+/// Most products of a solution: a second or so. A bar of a thousand by one thickness takes a
+/// hundredth of it; the loops of a contour that crosses itself may leave next to no thickness, for
+/// which a region is filled with triangles without number.
+const MOST_WORK: f64 = 1e9;
+
 /// The system of equations K φ = f of a region.
 pub(super) struct Stiffness {
     matrix: Envelope,
@@ -39,13 +44,16 @@ pub(super) struct Stiffness {
 }
 
 impl Stiffness {
-    /// Assembles the system of a triangulated region.
-    pub(super) fn of(mesh: &Mesh) -> Self {
+    /// Assembles the system of a triangulated region; `None` if it is too large to be solved.
+    pub(super) fn of(mesh: &Mesh) -> Option<Self> {
         let nodes = Nodes::of(mesh);
         let (unknown, first_hole, count) = nodes.unknowns();
         let elements: Vec<[Option<usize>; 6]> =
             nodes.elements.iter().map(|element| element.map(|node| unknown[node])).collect();
         let mut matrix = Envelope::new(count, &elements);
+        if matrix.work() > MOST_WORK {
+            return None;
+        }
         let mut load = vec![0.0; count];
         for (triangle, numbers) in mesh.triangles.iter().zip(&elements) {
             let (k, side_load) = element_matrix(mesh, triangle);
@@ -61,7 +69,7 @@ impl Stiffness {
                 }
             }
         }
-        Self { matrix, load, first_hole }
+        Some(Self { matrix, load, first_hole })
     }
 
     /// Adds 2 A_k to the load of the common value of a hole.

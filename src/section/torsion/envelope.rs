@@ -37,6 +37,11 @@ impl Envelope {
         Self { rows, entries: vec![0.0; length] }
     }
 
+    /// Products that the factor takes at most.
+    pub(super) fn work(&self) -> f64 {
+        self.rows.iter().enumerate().map(|(i, row)| ((i - row.first) as f64).powi(2)).sum()
+    }
+
     /// Adds to the entry (i, j), j ≤ i.
     pub(super) fn add(&mut self, i: usize, j: usize, value: f64) {
         self.entries[self.rows[i].origin.wrapping_add(j)] += value;

@@ -20,6 +20,9 @@ const LEAVE_ALONE: f64 = 0.001;
 /// Part of the area by which the triangles may differ from the polygons: their roundings only.
 const SAME_AREA: f64 = 1e-6;
 
+/// Most points added to a region: a strip of five thousand by one thickness may need as many.
+const MOST_VERTICES: usize = 250_000;
+
 /// A triangulated region.
 pub(super) struct Mesh {
     pub(super) points: Vec<Point2<f64>>,
@@ -36,12 +39,16 @@ pub(super) fn triangulate(
     polygons: &[Vec<Point2<f64>>],
     largest: f64,
 ) -> Result<Mesh, SectionError> {
+    let most = most_vertices(polygons, largest);
+    if most > MOST_VERTICES {
+        return Err(SectionError::NotTriangulated);
+    }
     let cdt = constrained(polygons)?;
     let parameters = RefinementParameters::new()
         .with_angle_limit(AngleLimit::from_deg(SMALLEST_ANGLE))
         .with_max_allowed_area(largest)
         .with_min_required_area(LEAVE_ALONE * largest)
-        .with_max_additional_vertices(most_vertices(polygons, largest));
+        .with_max_additional_vertices(most);
     let mesh = within_constraints(cdt.clone(), parameters.clone());
     let areas = polygons.iter().map(|p| signed_area(p).abs());
     let expected =

@@ -89,7 +89,7 @@ pub fn torsion_constant(contours: &Contours) -> Result<f64, SectionError> {
         .map(|polygon| graded(&polygon))
         .collect();
     let mesh = triangulate(&polygons, LARGEST_TRIANGLE)?;
-    let j = stress_function_integral(&mesh);
+    let j = stress_function_integral(&mesh).ok_or(SectionError::NotTriangulated)?;
     let lost = exact.area / (mesh.area() * thickness * thickness);
     Ok(j * lost * lost * thickness.powi(4))
 }
@@ -137,12 +137,12 @@ fn graded(polygon: &[Point2<f64>]) -> Vec<Point2<f64>> {
 }
 
 /// 2 ∫ φ dA + 2 Σ c_k A_k on a triangulated region.
-fn stress_function_integral(mesh: &Mesh) -> f64 {
-    let mut stiffness = Stiffness::of(mesh);
+fn stress_function_integral(mesh: &Mesh) -> Option<f64> {
+    let mut stiffness = Stiffness::of(mesh)?;
     for (hole, area) in mesh.hole_areas().into_iter().enumerate() {
         stiffness.load_hole(hole, area);
     }
-    stiffness.solve()
+    Some(stiffness.solve())
 }
 
 #[cfg(test)]

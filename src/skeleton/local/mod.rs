@@ -65,7 +65,7 @@ pub fn skeleton(
     if draft.runs.is_empty() {
         return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }
-    simplify::simplify(&mut draft, surface);
+    simplify::simplify(&mut draft, surface, observer)?;
     if draft.runs.len() == 1 && is_block(&draft) {
         return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
     }

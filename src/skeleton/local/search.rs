@@ -89,6 +89,7 @@ pub(crate) fn find_tubes(
     // The surface cut along all tubes, once it has been needed since the last was found.
     let mut cut: Option<Patches> = None;
     for (round, look) in LOOKS.iter().enumerate() {
+        keep_on(observer)?;
         let area_each = (look.spacing * mean_radius).powi(2);
         let places = if let Some(is_wanted) = look.pieces {
             let cut = cut.get_or_insert_with(|| cut_open(surface, &tubes));
@@ -108,6 +109,7 @@ pub(crate) fn find_tubes(
             cut = None;
         }
     }
+    keep_on(observer)?;
     let patches = cut.unwrap_or_else(|| cut_open(surface, &tubes));
     Ok(Found { tubes, patches })
 }

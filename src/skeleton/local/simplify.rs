@@ -7,6 +7,8 @@ use super::axis::{Axis, all_pass, axis_at_start};
 use super::draft::{Draft, HubKind};
 use super::junction::{meeting_point, nearest_inside, place_joints};
 use crate::mesh::Surface;
+use crate::observer::Observer;
+use crate::skeleton::error::{SkeletonError, keep_on};
 use crate::skeleton::inside::is_inside;
 
 /// Joints nearer to each other than this many radii of their branches are one: the axes of a plain
@@ -22,14 +24,22 @@ const AT_INTERFACE: f64 = 1.0;
 const STANDS_OUT: f64 = 1.5;
 
 /// Simplifies until nothing changes; every change removes a run.
-pub(crate) fn simplify(draft: &mut Draft, surface: &Surface) {
+///
+/// # Errors
+/// The observer asked to stop.
+pub(crate) fn simplify(
+    draft: &mut Draft,
+    surface: &Surface,
+    observer: &mut impl Observer,
+) -> Result<(), SkeletonError> {
     loop {
+        keep_on(observer)?;
         draft.remove_false_joints(surface);
         place_joints(draft, surface);
         let changed =
             prune_tips(draft) || merge_joints(draft) || merge_into_interfaces(draft, surface);
         if !changed {
-            return;
+            return Ok(());
         }
     }
 }
