@@ -1,20 +1,42 @@
-//! Many meshes into one folder: one bad file does not stop the rest.
+//! `beamwright reconstruct`: one mesh, or many into one folder, where one bad file does not stop the rest.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::args::{GlobalArgs, ReconstructArgs};
+use super::args::GlobalArgs;
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, interrupted};
-use super::reconstruct::Job;
+use super::reconstruct::{Job, ReconstructArgs};
 use super::show;
+
+/// Reconstructs one mesh, or many where a folder is given.
+///
+/// # Errors
+/// As [`into_folder`] and [`Job::run`]; several meshes without a folder.
+pub(crate) fn run(
+    args: &ReconstructArgs,
+    global: &GlobalArgs,
+    progress: &mut Progress,
+) -> Result<Exit, Failure> {
+    args.shop.check()?;
+    match (&args.output.out_dir, &args.output.output) {
+        (Some(folder), _) => into_folder(args, folder, global, progress),
+        (None, _) if !args.more.is_empty() => Err(Failure::usage(
+            "for more than one mesh give a folder, --out-dir, instead of --output",
+        )),
+        (None, step) => {
+            let step = step.clone().unwrap_or_default();
+            Job::new(args.of_one(&args.input.input, step))?.run(global, progress)
+        }
+    }
+}
 
 /// Reconstructs every mesh; the results of `NAME.EXT` go to `folder/NAME.step` and beside it.
 ///
 /// # Errors
 /// An output that is not given by its ending, two files of one name, or a folder that cannot be
 /// made. Otherwise, at the end, how many meshes failed, with the exit code of the first of them.
-pub(crate) fn run(
+fn into_folder(
     args: &ReconstructArgs,
     folder: &Path,
     global: &GlobalArgs,

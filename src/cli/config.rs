@@ -19,7 +19,7 @@ use beamwright::output::{OutputFiles, check_target};
 use clap::{Arg, ArgAction, ArgMatches, Command, CommandFactory};
 use toml::{Spanned, Value};
 
-use super::args::Cli;
+use super::command::Cli;
 use super::exit::{Exit, Failure};
 use super::outputs::ending;
 

@@ -5,7 +5,7 @@ use std::io;
 use clap::{Command, CommandFactory};
 use clap_complete::Shell;
 
-use super::args::Cli;
+use super::command::Cli;
 use super::exit::{Exit, Failure};
 use super::show;
 

@@ -2,11 +2,25 @@
 
 use beamwright::output::summary::Summary;
 use beamwright::pipeline::{mesh_findings, surface};
+use clap::Args;
 
-use super::args::{GlobalArgs, InspectArgs};
+use super::args::{GlobalArgs, InputArgs, ResultArgs};
 use super::exit::{Exit, Failure};
 use super::progress::Progress;
 use super::show;
+
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  beamwright inspect part.stl --non-design pads.stl
+  beamwright inspect part.obj --json";
+
+#[derive(Args, Debug)]
+pub(crate) struct InspectArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) result: ResultArgs,
+}
 
 pub(crate) fn run(
     args: &InspectArgs,

@@ -12,9 +12,9 @@ use beamwright::pipeline::Outcome;
 use beamwright::skeleton_file;
 use beamwright_formats::Unit;
 
-use super::args::ReconstructArgs;
 use super::exit::Failure;
 use super::export::view;
+use super::outputs::OutputArgs;
 use super::show;
 
 /// The files to look at that were asked for.
@@ -26,12 +26,12 @@ pub(crate) struct Looks {
 
 impl Looks {
     /// Checks what was asked for and reads the skeletons to compare with, before the work begins.
-    pub(crate) fn new(args: &ReconstructArgs) -> Result<Self, Failure> {
-        let output = &args.output;
+    ///
+    /// * `unit`: of skeletons whose format has none.
+    pub(crate) fn new(output: &OutputArgs, unit: Unit) -> Result<Self, Failure> {
         if let Some(path) = output.report.as_deref().filter(|p| !is_html(p)) {
             return Err(Failure::usage(format!("the report {} must end in .html", path.display())));
         }
-        let unit = args.input.unit.unwrap_or(Unit::Mm);
         Ok(Self {
             report: output.report.clone(),
             pictures: output.picture.iter().map(|p| picture_of(p)).collect::<Result<_, _>>()?,
@@ -45,10 +45,12 @@ impl Looks {
     }
 
     /// Adds the files to those that are written together.
+    ///
+    /// * `name`: of the mesh.
     pub(crate) fn add(
         self,
         files: &mut OutputFiles,
-        args: &ReconstructArgs,
+        name: &str,
         outcome: &Outcome,
         summary: &Summary,
         document: &step::Document,
@@ -63,8 +65,7 @@ impl Looks {
         let Some(path) = &self.report else { return Ok(()) };
         let measures = Measures::new(&outcome.surface, &outcome.skeleton, self.peers)
             .map_err(Failure::input)?;
-        let name = show::name_of(&args.input.input);
-        let report = Report { name: &name, summary, view: &view, measures: &measures, cut_list };
+        let report = Report { name, summary, view: &view, measures: &measures, cut_list };
         files.add(path, |out| report::write(&report, out)).map_err(Failure::input)
     }
 }

@@ -2,13 +2,16 @@
 
 mod args;
 mod batch;
+mod command;
 mod config;
 mod documents;
 mod evaluate;
 mod exit;
 mod export;
+mod frame;
 mod inspect;
 mod look;
+mod march;
 mod outputs;
 mod profiles;
 mod progress;
@@ -23,7 +26,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use self::args::{Cli, Command};
+use self::command::{Cli, Command};
 use self::config::Words;
 use self::exit::{Exit, Failure};
 use self::progress::Progress;
@@ -46,7 +49,7 @@ pub(crate) fn main() -> ExitCode {
     let end = match &cli.command {
         Command::Completions { shell } => documents::completions(*shell),
         Command::Man { command } => documents::manual(command.as_deref()),
-        Command::Reconstruct(args) => reconstruct::run(args, &cli.global, &mut progress),
+        Command::Reconstruct(args) => batch::run(args, &cli.global, &mut progress),
         Command::Skeleton(args) => skeleton::run(args, &cli.global, &mut progress),
         Command::Evaluate(args) => evaluate::run(args, &cli.global, &mut progress),
         Command::Profiles(args) => profiles::run(args),

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::args::ReconstructArgs;
 use super::exit::Failure;
 
 #[derive(Args, Clone, Debug)]
@@ -57,22 +56,19 @@ pub(crate) struct OutputArgs {
     pub(crate) no_non_design: bool,
 }
 
-impl ReconstructArgs {
+impl OutputArgs {
     /// The same for one mesh: its STEP file, and beside it all that is given by its ending alone.
-    pub(crate) fn of_one(&self, input: &Path, step: PathBuf) -> Self {
+    pub(crate) fn of_one(&self, step: PathBuf) -> Self {
         let mut one = self.clone();
-        one.input.input = input.to_owned();
-        for (_, path) in one.output.others_mut() {
+        for (_, path) in one.others_mut() {
             if let Some(ending) = ending(path) {
                 *path = step.with_extension(ending);
             }
         }
-        one.output.output = Some(step);
+        one.output = Some(step);
         one
     }
-}
 
-impl OutputArgs {
     /// All outputs but the STEP file, each with its option.
     fn others_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
         let single = [

@@ -6,36 +6,60 @@ use beamwright::mesh::Surface;
 use beamwright::output::assembly::{Assembly, AssemblyError, assembly};
 use beamwright::output::cut_list::CutList;
 use beamwright::output::mesh_export::{PartMesh, write_parts};
-use beamwright::output::sections::SectionFormat;
 use beamwright::output::summary::Summary;
 use beamwright::output::{OutputFiles, sections, step};
 use beamwright::pipeline::{self, Outcome};
 use beamwright::skeleton_file;
+use beamwright_formats::Unit;
+use clap::Args;
 
-use super::args::{GlobalArgs, ReconstructArgs};
+use super::args::{GlobalArgs, InputArgs, ResultArgs};
 use super::exit::{Exit, Failure};
-use super::export::Export;
-use super::look::Looks;
+use super::frame::FrameArgs;
+use super::march::MarchArgs;
+use super::outputs::OutputArgs;
 use super::progress::Progress;
-use super::skeleton::skeleton_format;
+use super::shop::ShopArgs;
+use super::targets::{CutListFormat, Targets};
 use super::{show, targets};
 
-/// One mesh, or many into one folder.
-pub(crate) fn run(
-    args: &ReconstructArgs,
-    global: &GlobalArgs,
-    progress: &mut Progress,
-) -> Result<Exit, Failure> {
-    args.shop.check()?;
-    match (&args.output.out_dir, &args.output.output) {
-        (Some(folder), _) => super::batch::run(args, folder, global, progress),
-        (None, _) if !args.more.is_empty() => Err(Failure::usage(
-            "for more than one mesh give a folder, --out-dir, instead of --output",
-        )),
-        (None, step) => {
-            let step = step.clone().unwrap_or_default();
-            Job::new(args.of_one(&args.input.input, step))?.run(global, progress)
-        }
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  beamwright reconstruct part.obj -o part.step
+  beamwright reconstruct part.stl --non-design pads.stl -o part.step --cut-list part.csv
+  beamwright reconstruct part.ply -o part.step --skeleton part.json --json
+  beamwright reconstruct part.ply -o part.step --export part.mlp      (opens in MeshLab)
+  beamwright reconstruct part.obj -o part.step --report .html         (part.html, for a browser)
+  beamwright reconstruct *.stl --out-dir beams --report .html --picture .png
+  beamwright reconstruct part.obj -o part.step --config shop.toml";
+
+#[derive(Args, Clone, Debug)]
+#[command(mut_arg("junctions", |arg| arg.default_value("axes")))]
+pub(crate) struct ReconstructArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) march: MarchArgs,
+    #[command(flatten)]
+    pub(crate) frame: FrameArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) shop: ShopArgs,
+    #[command(flatten)]
+    pub(crate) result: ResultArgs,
+
+    /// Further meshes, where --out-dir is given
+    #[arg(value_name = "IN", help_heading = "Input")]
+    pub(crate) more: Vec<PathBuf>,
+}
+
+impl ReconstructArgs {
+    /// The same for one mesh, into a STEP file.
+    pub(crate) fn of_one(&self, input: &Path, step: PathBuf) -> Self {
+        let mut one = Self { output: self.output.of_one(step), ..self.clone() };
+        one.input.input = input.to_owned();
+        one
     }
 }
 
@@ -51,7 +75,8 @@ impl Job {
     /// # Errors
     /// An output whose ending is none of its formats.
     pub(crate) fn new(args: ReconstructArgs) -> Result<Self, Failure> {
-        Ok(Self { targets: Targets::new(&args)?, args })
+        let unit = args.input.unit.unwrap_or(Unit::Mm);
+        Ok(Self { targets: Targets::new(&args.output, unit)?, args })
     }
 
     /// The mesh.
@@ -67,7 +92,7 @@ impl Job {
     /// From the mesh to its beams.
     pub(crate) fn run(self, global: &GlobalArgs, progress: &mut Progress) -> Result<Exit, Failure> {
         let Self { args, targets } = self;
-        targets.check(&args)?;
+        targets.check(&args.input, &args.frame.catalogue)?;
         reconstruct(&args, targets, global, progress)
     }
 }
@@ -103,7 +128,7 @@ fn reconstruct(
         .with_frame(&outcome.surface, &outcome.frame);
     if !(args.result.strict && summary.has_breach()) {
         if !beside.is_empty() {
-            targets.claim_beside(args)?;
+            targets.claim_beside(&args.input, &args.frame.catalogue)?;
         }
         let files = written(targets, args, &outcome, &summary, &list, &document, &beside)?;
         targets::commit(files, progress)?;
@@ -117,100 +142,6 @@ fn not_built(mesh: &Path, surface: &Surface, fault: &AssemblyError) -> Failure {
     let advice = pipeline::unit_in_doubt(surface.report.extent);
     let advice = advice.map_or_else(String::new, |advice| format!("; {advice}"));
     Failure::input(format!("cannot build {}: {fault}{advice}", mesh.display()))
-}
-
-/// Where the results go.
-struct Targets {
-    step: PathBuf,
-    cut_list: PathBuf,
-    cut_list_format: CutListFormat,
-    skeleton: PathBuf,
-    skeleton_format: skeleton_file::Format,
-    /// Non-design parts that are too much for the STEP file; claimed only where there are any.
-    beside: PathBuf,
-    /// All others.
-    claimed: Vec<PathBuf>,
-    sections: Option<(PathBuf, SectionFormat)>,
-    exports: Vec<Export>,
-    looks: Looks,
-}
-
-impl Targets {
-    /// What the endings of the outputs ask for.
-    fn new(args: &ReconstructArgs) -> Result<Self, Failure> {
-        let step = args.output.output.clone().unwrap_or_default();
-        let is_step = step
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("step") || e.eq_ignore_ascii_case("stp"));
-        if !is_step {
-            return Err(Failure::usage(format!(
-                "the output {} must end in .step or .stp",
-                step.display()
-            )));
-        }
-        let beside = |ending: &str| step.with_extension(ending);
-        let cut_list = args.output.cut_list.clone().unwrap_or_else(|| beside("csv"));
-        let skeleton = args.output.skeleton.clone().unwrap_or_else(|| beside("skeleton.json"));
-        let sections = args.output.sections.as_deref().map(section_target).transpose()?;
-        let exports: Vec<Export> =
-            args.output.export.iter().map(|path| Export::new(path)).collect::<Result<_, _>>()?;
-        let looks = Looks::new(args)?;
-        let non_design = beside("non-design.ply");
-        let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone()];
-        all.extend(sections.iter().map(|(path, _)| path.clone()));
-        all.extend(exports.iter().flat_map(Export::targets));
-        all.extend(looks.targets());
-        Ok(Self {
-            skeleton_format: skeleton_format(&skeleton)?,
-            step,
-            cut_list_format: cut_list_format(&cut_list)?,
-            cut_list,
-            skeleton,
-            beside: non_design,
-            claimed: all,
-            sections,
-            exports,
-            looks,
-        })
-    }
-
-    /// Checks every target before the work begins.
-    fn check(&self, args: &ReconstructArgs) -> Result<(), Failure> {
-        let all = self.claimed.iter().map(PathBuf::as_path);
-        targets::check(all, &args.input, &args.frame.catalogue)
-    }
-
-    /// Checks the mesh file of non-design parts against what else is read and written.
-    fn claim_beside(&self, args: &ReconstructArgs) -> Result<(), Failure> {
-        let all = self.claimed.iter().chain([&self.beside]);
-        targets::check(all.map(PathBuf::as_path), &args.input, &args.frame.catalogue)
-    }
-}
-
-/// How the cut list is written.
-#[derive(Clone, Copy)]
-enum CutListFormat {
-    Csv,
-    Json,
-}
-
-fn cut_list_format(path: &Path) -> Result<CutListFormat, Failure> {
-    let is = |e: &str| path.extension().is_some_and(|x| x.eq_ignore_ascii_case(e));
-    match (is("csv"), is("json")) {
-        (true, _) => Ok(CutListFormat::Csv),
-        (_, true) => Ok(CutListFormat::Json),
-        _ => Err(Failure::usage(format!(
-            "the cut list {} must end in .csv or .json",
-            path.display()
-        ))),
-    }
-}
-
-fn section_target(path: &Path) -> Result<(PathBuf, SectionFormat), Failure> {
-    let format = SectionFormat::of(path).ok_or_else(|| {
-        Failure::usage(format!("the sections {} must end in .json or .csv", path.display()))
-    })?;
-    Ok((path.to_owned(), format))
 }
 
 /// The outputs, complete under temporary names.
@@ -252,6 +183,6 @@ fn written(
     for export in &targets.exports {
         export.add(&mut files, outcome, document, &args.shop.material()).map_err(Failure::input)?;
     }
-    targets.looks.add(&mut files, args, outcome, summary, document, list)?;
+    targets.looks.add(&mut files, &summary.input, outcome, summary, document, list)?;
     Ok(files)
 }

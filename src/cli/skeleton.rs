@@ -1,21 +1,45 @@
 //! `beamwright skeleton`.
 
+use std::path::PathBuf;
+
 use beamwright::output::OutputFiles;
 use beamwright::output::summary::Summary;
 use beamwright::pipeline::march;
 use beamwright::skeleton_file;
+use clap::Args;
 
-use super::args::{GlobalArgs, SkeletonArgs};
+use super::args::{GlobalArgs, InputArgs, ResultArgs};
 use super::exit::{Exit, Failure};
+use super::march::MarchArgs;
 use super::progress::Progress;
 use super::{show, targets};
+
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  beamwright skeleton part.obj -o skeleton.json
+  beamwright skeleton part.obj -o skeleton.ply      (opens in MeshLab)";
+
+#[derive(Args, Debug)]
+pub(crate) struct SkeletonArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) march: MarchArgs,
+
+    /// Skeleton file: .json .obj .ply .cg .swc
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) result: ResultArgs,
+}
 
 pub(crate) fn run(
     args: &SkeletonArgs,
     global: &GlobalArgs,
     progress: &mut Progress,
 ) -> Result<Exit, Failure> {
-    let format = skeleton_format(&args.output)?;
+    let format = targets::skeleton_format(&args.output)?;
     targets::check([args.output.as_path()], &args.input, &[])?;
     let mut settings = args.input.settings();
     settings.skeleton = (&args.march).into();
@@ -32,9 +56,4 @@ pub(crate) fn run(
     }
     progress.finish();
     show::summary(&summary, &args.result, global)
-}
-
-/// The skeleton format a file name asks for.
-pub(crate) fn skeleton_format(path: &std::path::Path) -> Result<skeleton_file::Format, Failure> {
-    skeleton_file::Format::of(path).map_err(Failure::usage)
 }

@@ -1,14 +1,127 @@
-//! Checks of output files before the work begins, and the common end of all that write.
+//! Where results go: what the names ask for, checked before the work begins, and their common end.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use beamwright::observer::{Observer, Stage};
+use beamwright::output::sections::SectionFormat;
 use beamwright::output::{OutputFiles, check_target};
+use beamwright::skeleton_file;
+use beamwright_formats::Unit;
 
 use super::args::InputArgs;
 use super::exit::{Exit, Failure};
+use super::export::Export;
+use super::look::Looks;
+use super::outputs::OutputArgs;
 use super::progress::Progress;
+
+/// Where the results of one mesh go.
+pub(crate) struct Targets {
+    pub(crate) step: PathBuf,
+    pub(crate) cut_list: PathBuf,
+    pub(crate) cut_list_format: CutListFormat,
+    pub(crate) skeleton: PathBuf,
+    pub(crate) skeleton_format: skeleton_file::Format,
+    /// Non-design parts that are too much for the STEP file; claimed only where there are any.
+    pub(crate) beside: PathBuf,
+    /// All others.
+    pub(crate) claimed: Vec<PathBuf>,
+    pub(crate) sections: Option<(PathBuf, SectionFormat)>,
+    pub(crate) exports: Vec<Export>,
+    pub(crate) looks: Looks,
+}
+
+impl Targets {
+    /// What the endings of the outputs ask for.
+    ///
+    /// # Errors
+    /// An output whose ending is none of its formats.
+    pub(crate) fn new(output: &OutputArgs, unit: Unit) -> Result<Self, Failure> {
+        let step = output.output.clone().unwrap_or_default();
+        let is_step = step
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("step") || e.eq_ignore_ascii_case("stp"));
+        if !is_step {
+            return Err(Failure::usage(format!(
+                "the output {} must end in .step or .stp",
+                step.display()
+            )));
+        }
+        let beside = |ending: &str| step.with_extension(ending);
+        let cut_list = output.cut_list.clone().unwrap_or_else(|| beside("csv"));
+        let skeleton = output.skeleton.clone().unwrap_or_else(|| beside("skeleton.json"));
+        let sections = output.sections.as_deref().map(section_target).transpose()?;
+        let exports: Vec<Export> =
+            output.export.iter().map(|path| Export::new(path)).collect::<Result<_, _>>()?;
+        let looks = Looks::new(output, unit)?;
+        let non_design = beside("non-design.ply");
+        let mut all = vec![step.clone(), cut_list.clone(), skeleton.clone()];
+        all.extend(sections.iter().map(|(path, _)| path.clone()));
+        all.extend(exports.iter().flat_map(Export::targets));
+        all.extend(looks.targets());
+        Ok(Self {
+            skeleton_format: skeleton_format(&skeleton)?,
+            step,
+            cut_list_format: cut_list_format(&cut_list)?,
+            cut_list,
+            skeleton,
+            beside: non_design,
+            claimed: all,
+            sections,
+            exports,
+            looks,
+        })
+    }
+
+    /// Checks every target before the work begins.
+    ///
+    /// * `catalogues`: files that are read besides the meshes.
+    pub(crate) fn check(&self, input: &InputArgs, catalogues: &[PathBuf]) -> Result<(), Failure> {
+        check(self.claimed.iter().map(PathBuf::as_path), input, catalogues)
+    }
+
+    /// Checks the mesh file of non-design parts against what else is read and written.
+    pub(crate) fn claim_beside(
+        &self,
+        input: &InputArgs,
+        catalogues: &[PathBuf],
+    ) -> Result<(), Failure> {
+        let all = self.claimed.iter().chain([&self.beside]);
+        check(all.map(PathBuf::as_path), input, catalogues)
+    }
+}
+
+/// How the cut list is written.
+#[derive(Clone, Copy)]
+pub(crate) enum CutListFormat {
+    Csv,
+    Json,
+}
+
+fn cut_list_format(path: &Path) -> Result<CutListFormat, Failure> {
+    let is = |e: &str| path.extension().is_some_and(|x| x.eq_ignore_ascii_case(e));
+    match (is("csv"), is("json")) {
+        (true, _) => Ok(CutListFormat::Csv),
+        (_, true) => Ok(CutListFormat::Json),
+        _ => Err(Failure::usage(format!(
+            "the cut list {} must end in .csv or .json",
+            path.display()
+        ))),
+    }
+}
+
+fn section_target(path: &Path) -> Result<(PathBuf, SectionFormat), Failure> {
+    let format = SectionFormat::of(path).ok_or_else(|| {
+        Failure::usage(format!("the sections {} must end in .json or .csv", path.display()))
+    })?;
+    Ok((path.to_owned(), format))
+}
+
+/// The skeleton format a file name asks for.
+pub(crate) fn skeleton_format(path: &Path) -> Result<skeleton_file::Format, Failure> {
+    skeleton_file::Format::of(path).map_err(Failure::usage)
+}
 
 /// Whether every target can be written, none is named twice, and none is read.
 pub(crate) fn check<'a>(
