@@ -27,7 +27,8 @@ use sha2::{Digest, Sha256};
 
 use super::cut_list::CutList;
 use super::picture::svg_of_beams;
-use super::summary::{Summary, grouped};
+use super::summary::Summary;
+use super::summary::table::grouped;
 use super::view::View;
 pub use measure::{Measures, Peer};
 use tables::Tables;
