@@ -27,21 +27,22 @@
 
 mod alike;
 mod cut;
+mod end;
 mod mitre;
 mod sphere;
 mod trim;
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::{Point3, Unit};
 
 pub use alike::{Alike, SAME_PIECE};
 pub use cut::{CutBeam, EndCut};
+use end::{End, Members};
 pub use sphere::Ball;
 
 use crate::finding::{Finding, FindingKind};
-use crate::frame::{Beam, BeamAxes, Frame, NodeId, NodeKind};
+use crate::frame::{Beam, Frame, NodeId, NodeKind};
 use crate::mesh::InterfaceSection;
 use crate::mesh::interface_section::nearest_section;
-use crate::section::properties::Contours;
 
 /// How beams are joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -133,87 +134,6 @@ pub fn joints(
     (Joints { kind, beams, alike, balls }, findings)
 }
 
-/// A beam at a node.
-struct End {
-    beam: usize,
-    /// Which of its ends is here; `None` where it passes.
-    side: Option<usize>,
-    /// Its axes, turned as its section is.
-    axes: BeamAxes,
-    /// Along the beam, away from the node.
-    away: Unit<Vector3<f64>>,
-    /// Corners of its outline, from the axis, in model coordinates, mm.
-    corners: Vec<Vector3<f64>>,
-    /// Its mean section area, mm².
-    area: f64,
-    /// Whether its outline is a circle.
-    is_round: bool,
-    /// Its radius, if it is a round bar or tube of constant section, mm.
-    bar: Option<f64>,
-}
-
-impl End {
-    fn ends(&self) -> bool {
-        self.side.is_some()
-    }
-
-    /// How far the beam reaches from its axis in a direction, mm.
-    fn support(&self, direction: &Vector3<f64>) -> f64 {
-        self.corners.iter().map(|c| c.dot(direction)).fold(0.0, f64::max)
-    }
-
-    /// Radius of the circle about the axis that holds the outline, mm.
-    fn reach(&self) -> f64 {
-        self.corners.iter().map(Vector3::norm).fold(0.0, f64::max)
-    }
-}
-
-/// The beams at every node.
-struct Members {
-    at_node: Vec<Vec<End>>,
-}
-
-impl Members {
-    fn new(frame: &Frame) -> Self {
-        let mut at_node: Vec<Vec<End>> = frame.nodes.iter().map(|_| Vec::new()).collect();
-        for (i, beam) in frame.beams.iter().enumerate() {
-            for side in 0..2 {
-                at_node[beam.ends[side].index()].push(end(i, beam, Some(side)));
-            }
-            for passage in &beam.passes {
-                at_node[passage.node.index()].push(end(i, beam, None));
-            }
-        }
-        Self { at_node }
-    }
-}
-
-fn end(index: usize, beam: &Beam, side: Option<usize>) -> End {
-    let stations = &beam.shape.stations;
-    let region = if side == Some(1) { &stations[stations.len() - 1] } else { &stations[0] };
-    let axes = beam.axes.rolled(beam.shape.roll);
-    let outline = Contours::of_region(&region.region, PER_QUARTER).outer;
-    let corners = outline.iter().map(|p| axes.y.into_inner() * p.x + axes.z.into_inner() * p.y);
-    End {
-        beam: index,
-        side,
-        away: if side == Some(1) { -beam.axes.x } else { beam.axes.x },
-        corners: corners.collect(),
-        area: beam.shape.properties.area,
-        is_round: matches!(region.region.outer, crate::section::outline::Outline::Circle { .. }),
-        bar: bar(beam),
-        axes,
-    }
-}
-
-/// The radius of a round bar or tube of constant section.
-fn bar(beam: &Beam) -> Option<f64> {
-    let [first, others @ ..] = beam.shape.stations.as_slice() else { return None };
-    let is_round = first.region.holes.iter().all(|hole| cut::round(hole).is_some());
-    let is_constant = others.iter().all(|s| s.region == first.region);
-    cut::round(&first.region.outer).filter(|_| is_round && is_constant)
-}
-
 /// Ends in the plane of the interface section a node belongs to.
 fn at_interface(
     frame: &Frame,
@@ -250,7 +170,7 @@ fn too_short(frame: &Frame, beam: &Beam) -> Finding {
 mod tests {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-    use nalgebra::Point2;
+    use nalgebra::{Point2, Vector3};
 
     use super::*;
     use crate::frame::shape::BeamShape;
