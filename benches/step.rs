@@ -100,7 +100,7 @@ fn frame() -> Frame {
         let axis = Unit::new_normalize(place(i) * Vector3::z());
         let length = 100.0 + 2.0 * i as f64;
         let end = start + axis.into_inner() * length;
-        let node = |position| Node { position, kind: NodeKind::End };
+        let node = |position| Node { position, kind: NodeKind::End, interface: None };
         frame.nodes.extend([node(start), node(end)]);
         frame.beams.push(Beam {
             ends: [2 * i, 2 * i + 1].map(NodeId::new),

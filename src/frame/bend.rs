@@ -15,7 +15,6 @@ use nalgebra::Point3;
 use super::NodeKind;
 use super::depth::Depths;
 use super::deviation::worst;
-use super::params::FrameParams;
 use super::pieces::{Making, Piece};
 use crate::segment;
 
@@ -42,14 +41,14 @@ struct Stop {
 }
 
 /// Breaks the pieces that bend away by more than wanted; whether there was any.
-pub(super) fn split_bent(making: &mut Making<'_>, params: &FrameParams) -> bool {
+pub(super) fn split_bent(making: &mut Making<'_>) -> bool {
     let mut corners = Vec::new();
     for (i, piece) in making.pieces.iter().enumerate() {
         // A member was found straight before it was joined.
         let is_bent = piece.passes.is_empty()
-            && worst(making, piece).is_some_and(|w| w.depths > params.max_deviation);
+            && worst(making, piece).is_some_and(|w| w.depths > making.tolerances[piece.branch]);
         if is_bent {
-            corners.extend(corners_of(making, piece, params).into_iter().map(|at| (i, at)));
+            corners.extend(corners_of(making, piece).into_iter().map(|at| (i, at)));
         }
     }
     for &(i, at) in corners.iter().rev() {
@@ -63,23 +62,18 @@ pub(super) fn split_bent(making: &mut Making<'_>, params: &FrameParams) -> bool 
 const STRAIGHT_AGAIN: f64 = 0.7;
 
 /// Takes out corners that have become needless since other nodes moved; whether there was any.
-pub(super) fn rejoin_straight(making: &mut Making<'_>, params: &FrameParams) -> bool {
+pub(super) fn rejoin_straight(making: &mut Making<'_>) -> bool {
     let mut joined = false;
     // For every piece how far it and the next are from their straight axis, if they may be one.
     let mut bends: Vec<Option<f64>> =
-        (0..making.pieces.len()).map(|first| needless(making, first, params)).collect();
+        (0..making.pieces.len()).map(|first| needless(making, first)).collect();
     while let Some(first) = straightest(&bends) {
-        let gone = making.pieces.remove(first + 1);
+        making.join_at_corner(first);
         bends.remove(first + 1);
-        let piece = &mut making.pieces[first];
-        let skipped = making.corner_points[&piece.ends[1]];
-        piece.points.push(skipped);
-        piece.points.extend(gone.points);
-        piece.ends[1] = gone.ends[1];
         joined = true;
-        bends[first] = needless(making, first, params);
+        bends[first] = needless(making, first);
         if let Some(before) = first.checked_sub(1) {
-            bends[before] = needless(making, before, params);
+            bends[before] = needless(making, before);
         }
     }
     joined
@@ -93,21 +87,18 @@ fn straightest(bends: &[Option<f64>]) -> Option<usize> {
 
 /// How far the centroids of a piece and the next are from one straight axis for both, in half-depths,
 /// if a corner lies between them and is needless.
-fn needless(making: &Making<'_>, first: usize, params: &FrameParams) -> Option<f64> {
-    let [a, b] = [&making.pieces[first], making.pieces.get(first + 1)?];
-    let is_corner = a.ends[1] == b.ends[0]
-        && making.corner_points.contains_key(&a.ends[1])
-        && a.ends[0] != b.ends[1];
-    if !is_corner {
+fn needless(making: &Making<'_>, first: usize) -> Option<f64> {
+    if !making.is_corner(first) {
         return None;
     }
+    let [a, b] = [first, first + 1].map(|i| &making.pieces[i]);
     let ends = [a.ends[0], b.ends[1]].map(|n| making.nodes[n].position);
     let far = [a, b].into_iter().map(|p| farthest_from(making, p, ends)).fold(0.0, f64::max);
-    (far <= STRAIGHT_AGAIN * params.max_deviation).then_some(far)
+    (far <= STRAIGHT_AGAIN * making.tolerances[a.branch]).then_some(far)
 }
 
 /// Farthest centroid of a piece from an axis, in half-depths.
-fn farthest_from(making: &Making<'_>, piece: &Piece, [a, b]: [Point3<f64>; 2]) -> f64 {
+pub(super) fn farthest_from(making: &Making<'_>, piece: &Piece, [a, b]: [Point3<f64>; 2]) -> f64 {
     let offset = |s: &Stop| s.depths.in_depths(&segment::offset(&s.centroid, &a, &b));
     let own = stops(making, piece).into_iter().filter(|s| s.weight >= 0.5);
     own.map(|s| offset(&s)).fold(0.0, f64::max)
@@ -118,7 +109,7 @@ fn farthest_from(making: &Making<'_>, piece: &Piece, [a, b]: [Point3<f64>; 2]) -
 const MOST_STOPS: usize = 512;
 
 /// The points of a piece at which it is broken, ascending.
-fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<usize> {
+fn corners_of(making: &Making<'_>, piece: &Piece) -> Vec<usize> {
     let radius = making.radius(piece);
     let mut stops = stops(making, piece);
     let stride = stops.len().div_ceil(MOST_STOPS).max(1);
@@ -146,7 +137,7 @@ fn corners_of(making: &Making<'_>, piece: &Piece, params: &FrameParams) -> Vec<u
         let meets_junction = (from == 0 && at_junction(0)) || (to > count && at_junction(1));
         radius * if meets_junction { SHORTEST_AT_JUNCTION } else { SHORTEST_PART }
     };
-    let price = PRICE * params.max_deviation.powi(2);
+    let price = PRICE * making.tolerances[piece.branch].powi(2);
     // best[k]: least cost of a chain from the start to place k, and the place before.
     let mut best = vec![(0.0, 0)];
     for to in 1..=count + 1 {

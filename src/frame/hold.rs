@@ -9,10 +9,6 @@ use super::NodeKind;
 use super::pieces::{Making, Piece};
 use crate::mesh::TriangleTree;
 
-/// How far a node slides in the plane of its interface section, in radii of that section. Struts
-/// that leave their pad bent want to slide to its rim; oblique ones with fillets by a tenth.
-const FARTHEST_SLIDE: f64 = 0.35;
-
 /// Factor by which a node that left is held more firmly.
 const FIRMER: f64 = 3.0;
 
@@ -49,9 +45,11 @@ pub(super) fn hold_nodes_inside(making: &mut Making<'_>, tree: &TriangleTree) ->
 fn has_left(making: &Making<'_>, node: usize, pieces: &[&Piece], tree: &TriangleTree) -> bool {
     let (at, anchor) = (making.nodes[node].position, &making.anchors[node]);
     match making.nodes[node].kind {
-        NodeKind::Interface => (at - anchor.place).norm() > FARTHEST_SLIDE * anchor.radius,
+        NodeKind::Interface => {
+            (at - anchor.place).norm() > anchor.slide || (anchor.is_free && !tree.contains(&at))
+        }
         NodeKind::End => false,
-        NodeKind::Bend if (at - anchor.place).norm() > anchor.radius => true,
+        NodeKind::Bend if (at - anchor.place).norm() > anchor.slide => true,
         NodeKind::Junction | NodeKind::Bend => {
             !tree.contains(&at) || pieces.iter().any(|p| making.is_beyond_an_interface(node, p))
         }

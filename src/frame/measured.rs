@@ -55,7 +55,7 @@ fn tessellated(section: &BeamSection) -> Option<u32> {
 
 /// The averaged contour of the sections that belong to the beam alone; where they have none, the
 /// contour whose area is nearest to the mean.
-fn mean_contour(section: &BeamSection) -> Option<Vec<Point2<f64>>> {
+pub(super) fn mean_contour(section: &BeamSection) -> Option<Vec<Point2<f64>>> {
     if let Ok(outline) = average_outline(&contours(section), OUTLINE_POINTS) {
         return Some(outline.points().to_vec());
     }

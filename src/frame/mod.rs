@@ -12,19 +12,24 @@
 //! | 2 | bent branches broken into straight pieces | `straighten`, `pieces` |
 //! | 3 | all nodes moved so that the axes run in the middle of the material | `solve` |
 //! | 4 | nodes that left the material held to the skeleton | `hold` |
-//! | 5 | nodes closer than a section radius made one, pieces that still bend broken | `pieces`, `bend` |
-//! | 6 | members that run through a junction kept in one piece, if wanted | `continuous` |
-//! | 7 | mean and end values of the sections along each beam that are its own | [`beam_section`], `own`, `measured` |
-//! | 8 | a profile for every beam | [`profiles`] |
+//! | 5 | nodes closer than a section radius made one, pieces that still bend broken | `merge`, `bend` |
+//! | 6 | branches that stick out of the material laid anew | `lay_anew`, `free_ends`, `filled` |
+//! | 7 | members that run through a junction kept in one piece, if wanted | `continuous` |
+//! | 8 | mean and end values of the sections along each beam that are its own | [`beam_section`], `own`, `measured` |
+//! | 9 | a profile for every beam | [`profiles`] |
 
 pub mod beam_section;
 mod bend;
 mod continuous;
 mod depth;
 mod deviation;
+mod filled;
+mod free_ends;
 mod hold;
+mod lay_anew;
 mod lofts;
 mod measured;
+mod merge;
 pub mod moments;
 pub mod normalize;
 mod own;
@@ -84,6 +89,8 @@ pub struct Node {
     pub position: Point3<f64>,
     /// What it came from.
     pub kind: NodeKind,
+    /// The interface section it ends in: its place among those of the mesh.
+    pub interface: Option<u32>,
 }
 
 /// A node that a beam passes without being cut there.

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::beam_section::{BeamAxes, BeamSection};
+use super::lay_anew::lay_anew;
 use super::measured::measured;
 use super::params::FrameParams;
 use super::pieces::{Making, Piece};
@@ -54,11 +55,8 @@ pub(crate) fn normalize_watched(
 ) -> ControlFlow<(), Normalized> {
     let mut making = Making::new(skeleton, sections, &surface.interfaces, params);
     let mut findings = Vec::new();
-    settle(&mut making, surface, params, &mut findings, observer)?;
-    if bend::rejoin_straight(&mut making, params) {
-        making.drop_unused_nodes();
-        settle_nodes(&mut making, surface, observer)?;
-    }
+    settle(&mut making, surface, &mut findings, observer)?;
+    lay_anew(&mut making, surface, |making| settle(making, surface, &mut Vec::new(), observer))?;
     making.drop_closed_pieces(&mut findings);
     if params.continuous && continuous::join(&mut making, params) {
         settle_nodes(&mut making, surface, observer)?;
@@ -73,11 +71,11 @@ pub(crate) fn normalize_watched(
     ControlFlow::Continue(Normalized { frame: Frame { nodes: making.nodes, beams }, findings })
 }
 
-/// Solves until every node stays in the material, no piece bends and no two nodes are one.
+/// Solves until every node stays in the material, no piece bends and no two nodes are one; then
+/// takes out the corners that are not needed any more.
 fn settle(
     making: &mut Making<'_>,
     surface: &Surface,
-    params: &FrameParams,
     findings: &mut Vec<Finding>,
     observer: &mut impl Observer,
 ) -> ControlFlow<()> {
@@ -86,10 +84,14 @@ fn settle(
         making.solve();
         let again = making.merge_near_nodes(findings)
             || hold::hold_nodes_inside(making, &surface.tree)
-            || bend::split_bent(making, params);
+            || bend::split_bent(making);
         if !again {
             break;
         }
+    }
+    if bend::rejoin_straight(making) {
+        making.drop_unused_nodes();
+        settle_nodes(making, surface, observer)?;
     }
     ControlFlow::Continue(())
 }

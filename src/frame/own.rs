@@ -58,6 +58,13 @@ impl<'a> Making<'a> {
         BeamSection::new(&self.sections_of(piece), a, (b - a).norm(), &axes)
     }
 
+    /// What the sections of a piece that are its branch's own say.
+    pub(super) fn own_beam_section(&self, piece: &Piece) -> BeamSection {
+        let [a, b] = self.axis(piece);
+        let axes = BeamAxes::along(direction(&a, &b));
+        BeamSection::new(&self.own_sections_of(piece), a, (b - a).norm(), &axes)
+    }
+
     /// How far a section is the piece's own, 1 to 0. Swollen next to a junction it holds a part of
     /// other branches; elsewhere it is only thick. `radius` is that of the piece.
     pub(super) fn own(&self, piece: &Piece, radius: f64, station: &BeamStation) -> f64 {

@@ -6,10 +6,9 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::params::FrameParams;
 use super::section_at::Section;
-use super::solve::{Anchor, Pull, Tie, solve_nodes};
+use super::solve::{Anchor, FAINT, Pull, Tie, solve_nodes};
 use super::straighten::breaks;
 use super::{Node, NodeKind};
-use crate::finding::{Finding, FindingKind};
 use crate::mesh::InterfaceSection;
 use crate::mesh::interface_section::nearest_section;
 use crate::skeleton::{Branch, PointKind, Skeleton};
@@ -27,9 +26,14 @@ pub(super) struct Piece {
 
 /// A branch is not broken beforehand into pieces shorter than this many of its radii: next to a
 /// junction a branch turns into it, which is no bend of the beam.
-const SHORTEST_PIECE: f64 = 3.0;
+pub(super) const SHORTEST_PIECE: f64 = 3.0;
+
+/// How far a node slides in the plane of its interface section at first, in radii of that section.
+/// Struts that leave their pad bent want to slide to its rim; oblique ones with fillets by a tenth.
+const FARTHEST_SLIDE: f64 = 0.35;
 
 /// Pieces and nodes in the making.
+#[derive(Clone)]
 pub(super) struct Making<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) sections: &'a [Option<Section>],
@@ -39,6 +43,8 @@ pub(super) struct Making<'a> {
     pub(super) pieces: Vec<Piece>,
     /// Skeletal points of the nodes that are corners of a branch.
     pub(super) corner_points: BTreeMap<usize, u32>,
+    /// Farthest each branch may bend away from its pieces, in half-depths of its sections.
+    pub(super) tolerances: Vec<f64>,
 }
 
 impl<'a> Making<'a> {
@@ -55,6 +61,7 @@ impl<'a> Making<'a> {
             anchors: vec![],
             pieces: vec![],
             corner_points: BTreeMap::new(),
+            tolerances: vec![params.max_deviation; skeleton.branches.len()],
         };
         let mut of_point = vec![None; skeleton.points.len()];
         for (b, branch) in skeleton.branches.iter().enumerate() {
@@ -84,20 +91,22 @@ impl<'a> Making<'a> {
             PointKind::Branch => NodeKind::Bend,
         };
         let mut anchor = Anchor::at(position, radius);
-        if kind == NodeKind::Interface
-            && let Some(i) = nearest_section(interfaces, &position)
-        {
+        let nearest = nearest_section(interfaces, &position);
+        let interface = nearest.filter(|_| kind == NodeKind::Interface);
+        if let Some(i) = interface.map(|i| &interfaces[i]) {
             anchor.normal = Unit::try_new(i.normal, 0.0);
             anchor.radius = i.radius();
+            anchor.slide = FARTHEST_SLIDE * anchor.radius;
         }
-        let node = self.push_node(Node { position, kind }, anchor);
+        let interface = interface.map(|i| i as u32);
+        let node = self.push_node(Node { position, kind, interface }, anchor);
         if kind == NodeKind::Bend {
             self.corner_points.insert(node, point);
         }
         node
     }
 
-    fn push_node(&mut self, node: Node, anchor: Anchor) -> usize {
+    pub(super) fn push_node(&mut self, node: Node, anchor: Anchor) -> usize {
         self.nodes.push(node);
         self.anchors.push(anchor);
         self.nodes.len() - 1
@@ -166,61 +175,6 @@ impl<'a> Making<'a> {
             .collect()
     }
 
-    /// Makes one node of two that a piece shorter than a section radius joins; whether any was.
-    pub(super) fn merge_near_nodes(&mut self, findings: &mut Vec<Finding>) -> bool {
-        let before = findings.len();
-        while let Some(short) = self.pieces.iter().position(|piece| {
-            piece.ends[0] != piece.ends[1]
-                && !piece.ends.iter().all(|&n| self.is_interface(n))
-                && (self.is_shorter_than_its_radius(piece) || self.is_stub_beyond(piece))
-        }) {
-            let [a, b] = self.pieces.remove(short).ends;
-            let (kept, gone) = if self.is_interface(b) { (b, a) } else { (a, b) };
-            let nodes = |p: &'_ mut Piece| {
-                for node in p.ends.iter_mut().chain(p.passes.iter_mut().map(|p| &mut p.0)) {
-                    if *node == gone {
-                        *node = kept;
-                    }
-                }
-            };
-            self.pieces.iter_mut().for_each(nodes);
-            findings.push(Finding::note(
-                FindingKind::NodesMerged,
-                Some(self.nodes[kept].position),
-                "two nodes closer than a section radius were made one",
-            ));
-            // A piece whose two ends became one is nothing any more.
-            self.pieces.retain(|p| p.ends[0] != p.ends[1] || p.points.len() > 2);
-        }
-        self.drop_unused_nodes();
-        findings.len() > before
-    }
-
-    /// Leaves out pieces that end where they begin: loops too narrow to be broken into beams.
-    pub(super) fn drop_closed_pieces(&mut self, findings: &mut Vec<Finding>) {
-        for piece in self.pieces.extract_if(.., |p| p.ends[0] == p.ends[1]) {
-            findings.push(Finding::note(
-                FindingKind::NodesMerged,
-                Some(self.nodes[piece.ends[0]].position),
-                "a loop at a node, narrower than a section radius, is no beam; it was left out",
-            ));
-        }
-        self.drop_unused_nodes();
-    }
-
-    fn is_shorter_than_its_radius(&self, piece: &Piece) -> bool {
-        let [a, b] = self.axis(piece);
-        (a - b).norm() < self.radius(piece)
-    }
-
-    /// Whether a piece is a short stub at an interface section, and the axes that meet at its
-    /// other end meet beyond that section: they leave the section each by itself.
-    fn is_stub_beyond(&self, piece: &Piece) -> bool {
-        let [a, b] = piece.ends.map(|n| self.anchors[n].place);
-        (a - b).norm() < SHORTEST_PIECE * self.radius(piece)
-            && piece.ends.iter().any(|&n| self.is_beyond_an_interface(n, piece))
-    }
-
     /// Whether a node lies beyond the plane of an interface section that a piece of it ends in.
     pub(super) fn is_beyond_an_interface(&self, node: usize, piece: &Piece) -> bool {
         let at = self.nodes[node].position;
@@ -234,25 +188,24 @@ impl<'a> Making<'a> {
         self.nodes[node].kind == NodeKind::Interface
     }
 
-    pub(super) fn drop_unused_nodes(&mut self) {
-        let mut new_index = vec![usize::MAX; self.nodes.len()];
-        let (mut nodes, mut anchors) = (Vec::new(), Vec::new());
-        for piece in &mut self.pieces {
-            for end in piece.ends.iter_mut().chain(piece.passes.iter_mut().map(|p| &mut p.0)) {
-                if new_index[*end] == usize::MAX {
-                    new_index[*end] = nodes.len();
-                    nodes.push(self.nodes[*end]);
-                    anchors.push(self.anchors[*end]);
-                }
-                *end = new_index[*end];
-            }
-        }
-        (self.nodes, self.anchors) = (nodes, anchors);
-        self.corner_points = std::mem::take(&mut self.corner_points)
-            .into_iter()
-            .map(|(node, point)| (new_index[node], point))
-            .filter(|(node, _)| *node != usize::MAX)
-            .collect();
+    /// Makes one piece of one and the next, which meet at a corner of their branch.
+    pub(super) fn join_at_corner(&mut self, first: usize) {
+        let gone = self.pieces.remove(first + 1);
+        let piece = &mut self.pieces[first];
+        let skipped = self.corner_points[&piece.ends[1]];
+        piece.points.push(skipped);
+        piece.points.extend(gone.points);
+        piece.ends[1] = gone.ends[1];
+    }
+
+    /// Whether a piece and the next one are parts of one branch that meet at a corner of it.
+    pub(super) fn is_corner(&self, first: usize) -> bool {
+        let [Some(a), Some(b)] = [first, first + 1].map(|i| self.pieces.get(i)) else {
+            return false;
+        };
+        a.ends[1] == b.ends[0]
+            && self.corner_points.contains_key(&a.ends[1])
+            && a.ends[0] != b.ends[1]
     }
 
     /// Breaks a piece at one of its points, which becomes a node.
@@ -262,7 +215,7 @@ impl<'a> Making<'a> {
             .as_ref()
             .map_or_else(|| self.skeleton.position(point), |s| s.centroid);
         let radius = self.skeleton.points[point as usize].radius;
-        let node = Node { position, kind: NodeKind::Bend };
+        let node = Node { position, kind: NodeKind::Bend, interface: None };
         let bend = self.push_node(node, Anchor::at(position, radius));
         self.corner_points.insert(bend, point);
         let mut second = self.pieces[index].clone();
@@ -283,6 +236,7 @@ fn mean_radius(skeleton: &Skeleton, branch: &Branch) -> f64 {
 impl Anchor {
     /// A node free to move in all directions.
     fn at(place: Point3<f64>, radius: f64) -> Self {
-        Self { place, normal: None::<Unit<Vector3<f64>>>, radius, hold: super::solve::FAINT }
+        let normal = None::<Unit<Vector3<f64>>>;
+        Self { place, normal, radius, slide: radius, is_free: false, hold: FAINT }
     }
 }

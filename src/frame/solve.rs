@@ -39,6 +39,10 @@ pub(crate) struct Anchor {
     pub(crate) normal: Option<Unit<Vector3<f64>>>,
     /// Radius of the section there, mm.
     pub(crate) radius: f64,
+    /// How far it may be from there, mm.
+    pub(crate) slide: f64,
+    /// Whether it ends in a plane of its own along that of its interface section.
+    pub(crate) is_free: bool,
     /// How firmly it is held, against the sum of the pulls at it.
     pub(crate) hold: f64,
 }
@@ -253,7 +257,14 @@ mod tests {
     }
 
     fn anchors(nodes: &[Point3<f64>], normals: &[Option<Unit<Vector3<f64>>>]) -> Vec<Anchor> {
-        let anchor = |(&place, &normal)| Anchor { place, normal, radius: 1.0, hold: FAINT };
+        let anchor = |(&place, &normal)| Anchor {
+            place,
+            normal,
+            radius: 1.0,
+            slide: 1.0,
+            is_free: false,
+            hold: FAINT,
+        };
         nodes.iter().zip(normals).map(anchor).collect()
     }
 

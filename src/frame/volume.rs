@@ -45,7 +45,8 @@ const CORNERS: usize = 24;
 
 /// Steps of the even sequence in three directions: 1/g, 1/g², 1/g³ with g⁴ = g + 1 (M. Roberts,
 /// "The unreasonable effectiveness of quasirandom sequences", 2018).
-const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
+pub(super) const STEPS: [f64; 3] =
+    [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
 
 /// Measures the beams of a frame, in order, against the part they stand for.
 pub fn volumes(frame: &Frame, part: &TriangleTree) -> Vec<BeamVolumes> {
@@ -173,7 +174,7 @@ fn fills(region: &Contours, p: &Point2<f64>) -> bool {
 }
 
 /// Even–odd rule.
-fn is_in(polygon: &[Point2<f64>], p: &Point2<f64>) -> bool {
+pub(super) fn is_in(polygon: &[Point2<f64>], p: &Point2<f64>) -> bool {
     let mut inside = false;
     let Some(mut a) = polygon.last() else { return false };
     for b in polygon {
@@ -199,7 +200,11 @@ mod tests {
         for bar in bars {
             let [a, b] = bar.map(Point3::from);
             let first = frame.nodes.len();
-            frame.nodes.extend([a, b].map(|position| Node { position, kind: NodeKind::End }));
+            frame.nodes.extend([a, b].map(|position| Node {
+                position,
+                kind: NodeKind::End,
+                interface: None,
+            }));
             let profile = Profile::new(Shape::Round { d: 10.0 }).unwrap();
             let properties = profile.properties().unwrap();
             frame.beams.push(Beam {

@@ -42,7 +42,6 @@ pub use sphere::Ball;
 use crate::finding::{Finding, FindingKind};
 use crate::frame::{Beam, Frame, NodeId, NodeKind};
 use crate::mesh::InterfaceSection;
-use crate::mesh::interface_section::nearest_section;
 
 /// How beams are joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -97,7 +96,10 @@ pub fn joints(
         let node = NodeId::new(n);
         let cuts = match (kind, frame.node(node).kind) {
             (JointKind::None, _) => continue,
-            (_, NodeKind::Interface) => at_interface(frame, node, at, interfaces),
+            (_, NodeKind::Interface) => {
+                let section = frame.node(node).interface.and_then(|i| interfaces.get(i as usize));
+                at_interface(section, at)
+            }
             (JointKind::Sphere, _) => {
                 let Some((ball, cuts)) = sphere::ball(node, at) else { continue };
                 balls.push(ball);
@@ -134,15 +136,9 @@ pub fn joints(
     (Joints { kind, beams, alike, balls }, findings)
 }
 
-/// Ends in the plane of the interface section a node belongs to.
-fn at_interface(
-    frame: &Frame,
-    node: NodeId,
-    at: &[End],
-    interfaces: &[InterfaceSection],
-) -> Vec<Option<EndCut>> {
-    let nearest = nearest_section(interfaces, &frame.node(node).position);
-    let normal = nearest.and_then(|i| Unit::try_new(i.normal, 0.0));
+/// Ends in a plane along that of an interface section.
+fn at_interface(section: Option<&InterfaceSection>, at: &[End]) -> Vec<Option<EndCut>> {
+    let normal = section.and_then(|i| Unit::try_new(i.normal, 0.0));
     let cut = |end: &End| normal.map(|n| EndCut::in_plane(0.0, n, &end.away));
     at.iter().map(cut).collect()
 }
@@ -178,7 +174,11 @@ mod tests {
 
     /// Round bars of radius `radius` between nodes, none of them at an interface section.
     fn frame(nodes: &[[f64; 3]], bars: &[([u32; 2], f64)]) -> Frame {
-        let node = |p: &[f64; 3]| Node { position: Point3::from(*p), kind: NodeKind::Junction };
+        let node = |p: &[f64; 3]| Node {
+            position: Point3::from(*p),
+            kind: NodeKind::Junction,
+            interface: None,
+        };
         let nodes: Vec<Node> = nodes.iter().map(node).collect();
         let beams = bars
             .iter()

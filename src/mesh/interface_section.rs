@@ -4,7 +4,7 @@
 //! Where it does not, the loop is the rim of a hole through the part (a bolt hole whose wall is
 //! non-design): no branch starts in the empty middle of a hole.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::half_edge::HalfEdgeMesh;
 use super::id::{HalfEdgeId, SetId};
@@ -43,15 +43,34 @@ impl InterfaceSection {
     pub fn radius(&self) -> f64 {
         (self.area / std::f64::consts::PI).sqrt()
     }
+
+    /// How far along a line its nearest crossing with the cap of the loop lies, in lengths of
+    /// `along`; the cap is the fan of triangles from the centroid. A loop that winds round the
+    /// corner of a pad has the design part reach farther on one side than on the other.
+    pub(crate) fn way_to_cap(
+        &self,
+        mesh: &HalfEdgeMesh,
+        from: &Point3<f64>,
+        along: &Vector3<f64>,
+    ) -> Option<f64> {
+        let corner = |h: &HalfEdgeId| mesh.position(mesh.origin(*h));
+        let ends = self.half_edges.iter().cycle().skip(1);
+        let crossings = self.half_edges.iter().zip(ends).filter_map(|(a, b)| {
+            let (u, v) = (corner(a) - self.centroid, corner(b) - self.centroid);
+            // from + t along = centroid + p u + q v
+            let columns = Matrix3::from_columns(&[-along, u, v]);
+            let found = columns.try_inverse()? * (from - self.centroid);
+            let (p, q) = (found.y, found.z);
+            (p >= 0.0 && q >= 0.0 && p + q <= 1.0).then_some(found.x)
+        });
+        crossings.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+    }
 }
 
-/// The interface section whose centre lies nearest to a place.
-pub(crate) fn nearest_section<'a>(
-    sections: &'a [InterfaceSection],
-    place: &Point3<f64>,
-) -> Option<&'a InterfaceSection> {
-    let squared = |s: &InterfaceSection| (s.centroid - place).norm_squared();
-    sections.iter().min_by(|a, b| squared(a).total_cmp(&squared(b)))
+/// The interface section whose centre lies nearest to a place, by its number.
+pub(crate) fn nearest_section(sections: &[InterfaceSection], place: &Point3<f64>) -> Option<usize> {
+    let squared = |i: usize| (sections[i].centroid - place).norm_squared();
+    (0..sections.len()).min_by(|&a, &b| squared(a).total_cmp(&squared(b)))
 }
 
 /// Area vector and area centroid of a closed polygon in space.

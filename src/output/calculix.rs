@@ -20,9 +20,8 @@ use nalgebra::Point3;
 use super::assembly::mark;
 use super::material::Material;
 use super::plain::one_line;
-use crate::frame::{Beam, Frame, NodeKind};
+use crate::frame::{Beam, Frame};
 use crate::mesh::InterfaceSection;
-use crate::mesh::interface_section::nearest_section;
 use crate::section::Shape;
 
 /// Length of an element in section radii; shorter ones make the expanded solids squat.
@@ -121,8 +120,7 @@ fn node_sets(
 ) -> io::Result<()> {
     let mut sets: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (i, node) in frame.nodes.iter().enumerate() {
-        let nearest = nearest_section(interfaces, &node.position);
-        if let (NodeKind::Interface, Some(section)) = (node.kind, nearest) {
+        if let Some(section) = node.interface.and_then(|s| interfaces.get(s as usize)) {
             sets.entry(section.set.0).or_default().push(i + 1);
         }
     }

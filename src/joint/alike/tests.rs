@@ -37,7 +37,8 @@ fn beam(shape: &Shape, length: f64, rises: [[f64; 2]; 2]) -> (Beam, CutBeam) {
 }
 
 fn found(beams: Vec<(Beam, CutBeam)>) -> Vec<Alike> {
-    let at = |z: f64| Node { position: Point3::new(0.0, 0.0, z), kind: NodeKind::End };
+    let at =
+        |z: f64| Node { position: Point3::new(0.0, 0.0, z), kind: NodeKind::End, interface: None };
     let (beams, cuts): (Vec<Beam>, Vec<CutBeam>) = beams.into_iter().unzip();
     let frame = Frame { nodes: vec![at(0.0), at(100.0)], beams };
     let all = alike(&frame, &cuts);

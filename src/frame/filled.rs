@@ -1,0 +1,71 @@
+//! What the pieces of a branch fill, and how much of it sticks out of the material.
+
+use nalgebra::Point2;
+
+use super::beam_section::BeamAxes;
+use super::direction;
+use super::measured::mean_contour;
+use super::pieces::{Making, Piece};
+use super::volume::{STEPS, is_in};
+use crate::mesh::TriangleTree;
+use crate::section::properties::signed_area;
+
+/// Part of its volume from which on a branch sticks out too far.
+const MOST_OUTSIDE: f64 = 0.08;
+
+/// Samples of the box round a piece: its part outside is known within a hundredth.
+const SAMPLES: usize = 256;
+
+/// What the pieces of a branch fill, each built with the mean contour of its sections.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Filled {
+    /// Number of pieces.
+    pub(super) pieces: u32,
+    /// Volume, mm³.
+    volume: f64,
+    /// What of it lies outside of the material, mm³.
+    outside: f64,
+}
+
+impl Filled {
+    /// Measures a branch.
+    pub(super) fn of_branch(making: &Making<'_>, branch: usize, tree: &TriangleTree) -> Self {
+        let mut sum = Self::default();
+        for piece in making.pieces.iter().filter(|p| p.branch == branch) {
+            sum.pieces += 1;
+            sum.add(making, piece, tree);
+        }
+        sum
+    }
+
+    /// Adds a piece; one without sections fills nothing that is known.
+    fn add(&mut self, making: &Making<'_>, piece: &Piece, tree: &TriangleTree) {
+        let Some(outline) = mean_contour(&making.own_beam_section(piece)) else { return };
+        let [start, end] = making.axis(piece);
+        let axes = BeamAxes::along(direction(&start, &end));
+        let reach = outline.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+        let (mut inside, mut outside) = (0_u32, 0_u32);
+        for k in 0..SAMPLES {
+            let [t, u, v] = STEPS.map(|step| (0.5 + step * k as f64).fract());
+            let across = Point2::new(2.0 * u - 1.0, 2.0 * v - 1.0) * reach;
+            if is_in(&outline, &across) {
+                let at = start + (end - start) * t + *axes.y * across.x + *axes.z * across.y;
+                let hit = if tree.contains(&at) { &mut inside } else { &mut outside };
+                *hit += 1;
+            }
+        }
+        let volume = signed_area(&outline).abs() * (end - start).norm();
+        self.volume += volume;
+        self.outside += volume * f64::from(outside) / f64::from((inside + outside).max(1));
+    }
+
+    /// Whether too much sticks out.
+    pub(super) fn sticks_out(&self) -> bool {
+        self.outside > MOST_OUTSIDE * self.volume
+    }
+
+    /// The part that sticks out.
+    pub(super) fn part_outside(&self) -> f64 {
+        if self.volume > 0.0 { self.outside / self.volume } else { 0.0 }
+    }
+}
