@@ -14,6 +14,7 @@ use beamwright::section::outline::Outline;
 use beamwright::section::{Catalogue, MatchMode, ProfileChoice, match_profile};
 use beamwright::skeleton::{self, SkeletonParams};
 use common::TestMesh;
+use common::families::quarter_bend;
 use common::frame::TrueFrame;
 use common::march_cubes::surface_of;
 use nalgebra::{Point3, Vector3};
@@ -201,6 +202,44 @@ fn beams_of_optimized_parts_fill_the_part_and_hardly_anything_else() {
         let [more, outside] = against_design(&reconstruct(&sample(part), freeform));
         assert!(more.abs() < 0.05, "{part}: {more:+.3} of the design volume");
         assert!(outside < 0.08, "{part}: {outside:.3} of the design volume sticks out");
+    }
+}
+
+fn of_mesh(mesh: &TestMesh, profiles: ProfileParams) -> Outcome {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mesh.obj");
+    std::fs::write(&path, mesh.obj()).expect("written");
+    reconstruct(&path, profiles)
+}
+
+#[test]
+fn a_fat_bow_gets_as_many_beams_as_keep_it_in_the_material() {
+    // Two beams are within the wanted half radius of it, and 9.2 % of them would stick out.
+    let freeform = ProfileParams { choice: ProfileChoice::Freeform, ..ProfileParams::default() };
+    let outcome = of_mesh(&quarter_bend(52.0, 8.0), freeform);
+    let [more, outside] = against_design(&outcome);
+    assert_eq!(outcome.frame.beams.len(), 3);
+    assert!(outside < 0.06, "{outside:.3} of the design volume sticks out");
+    assert!(more.abs() < 0.03, "{more:+.3} of the design volume");
+}
+
+#[test]
+fn struts_that_leave_one_pad_end_each_where_its_axis_meets_it() {
+    // They touch at the pad, so that its interface section is one.
+    let ends = [[60.0, 30.0, 0.0], [60.0, 0.0, 0.0], [60.0, -30.0, 0.0]];
+    let fan = TrueFrame {
+        nodes: [[0.0; 3]].into_iter().chain(ends).collect(),
+        struts: (1..4).map(|k| ([0, k], [3.0; 2])).collect(),
+        pads: (0..4).collect(),
+        pad: 7.0,
+    };
+    let outcome = of_mesh(&fan.mesh(0.75), ProfileParams::default());
+    assert_eq!(outcome.frame.beams.len(), 3, "no bend that leads to the middle of the pad");
+    for end in ends {
+        let (_, axis) = beam_between(&outcome, [0.0; 3], end);
+        let along = Point3::from(end).coords.normalize();
+        let off = axis.map(|p| p.coords.cross(&along).norm());
+        assert!(off.iter().all(|off| *off < 0.2 * 3.0), "{off:.2?} mm off the axis to {end:?}");
     }
 }
 

@@ -93,15 +93,18 @@ fn needless(making: &Making<'_>, first: usize) -> Option<f64> {
     }
     let [a, b] = [first, first + 1].map(|i| &making.pieces[i]);
     let ends = [a.ends[0], b.ends[1]].map(|n| making.nodes[n].position);
-    let far = [a, b].into_iter().map(|p| farthest_from(making, p, ends)).fold(0.0, f64::max);
+    let far = [a, b].into_iter().flat_map(|p| offsets_from(making, p, ends)).fold(0.0, f64::max);
     (far <= STRAIGHT_AGAIN * making.tolerances[a.branch]).then_some(far)
 }
 
-/// Farthest centroid of a piece from an axis, in half-depths.
-pub(super) fn farthest_from(making: &Making<'_>, piece: &Piece, [a, b]: [Point3<f64>; 2]) -> f64 {
+/// Distances of the own centroids of a piece from an axis, in half-depths.
+pub(super) fn offsets_from(
+    making: &Making<'_>,
+    piece: &Piece,
+    [a, b]: [Point3<f64>; 2],
+) -> Vec<f64> {
     let offset = |s: &Stop| s.depths.in_depths(&segment::offset(&s.centroid, &a, &b));
-    let own = stops(making, piece).into_iter().filter(|s| s.weight >= 0.5);
-    own.map(|s| offset(&s)).fold(0.0, f64::max)
+    stops(making, piece).iter().filter(|s| s.weight >= 0.5).map(offset).collect()
 }
 
 /// Most points of a piece that are weighed as corners, since the time grows with the cube of their

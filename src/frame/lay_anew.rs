@@ -18,7 +18,7 @@
 
 use std::ops::ControlFlow;
 
-use super::bend::farthest_from;
+use super::bend::offsets_from;
 use super::filled::Filled;
 use super::pieces::Making;
 use crate::mesh::Surface;
@@ -27,9 +27,9 @@ use crate::mesh::Surface;
 /// bent legs of a tripod gain 4 by theirs, rough cast struts one.
 const PRICE: f64 = 0.02;
 
-/// Farthest centroid from the axis of a bar that is straight, in half-depths: legs of optimized
-/// tables are off by 0.02, those of a cantilever by 0.06.
-const STRAIGHT: f64 = 0.03;
+/// Most a branch that does not stick out may bow to be called straight, in half-depths: struts that
+/// leave one pad bow by 0.002, the legs of a rough cantilever by 0.03.
+const STRAIGHT: f64 = 0.02;
 
 /// How a branch is laid.
 #[derive(Clone, Copy, PartialEq)]
@@ -102,8 +102,7 @@ pub(super) fn lay_anew<'a>(
         let trial = laid(making, &ways, surface, &mut settle)?;
         for branch in tried {
             let (choice, then) = (&mut choices[branch], filled(&trial, branch));
-            let is_plain =
-                || then.pieces < choice.now.pieces && farthest(&trial, branch) < STRAIGHT;
+            let is_plain = || then.pieces < choice.now.pieces && bow(&trial, branch) < STRAIGHT;
             if choice.now.sticks_out() || is_plain() {
                 choice.consider(laying, &then);
             }
@@ -147,8 +146,10 @@ fn is_broken_at_interface(making: &Making<'_>, branch: usize) -> bool {
     own.any(|p| leads(p.ends[0], p.ends[1]) || leads(p.ends[1], p.ends[0]))
 }
 
-/// Farthest centroid of a branch from its pieces, in half-depths.
-fn farthest(making: &Making<'_>, branch: usize) -> f64 {
+/// Root mean square of the distances of the centroids of a branch from its pieces, in half-depths.
+fn bow(making: &Making<'_>, branch: usize) -> f64 {
     let own = making.pieces.iter().filter(|p| p.branch == branch);
-    own.map(|p| farthest_from(making, p, making.axis(p))).fold(0.0, f64::max)
+    let offsets: Vec<f64> = own.flat_map(|p| offsets_from(making, p, making.axis(p))).collect();
+    let squares: f64 = offsets.iter().map(|o| o * o).sum();
+    (squares / offsets.len().max(1) as f64).sqrt()
 }
