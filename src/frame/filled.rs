@@ -1,6 +1,6 @@
 //! What the pieces of a branch fill, and how much of it sticks out of the material.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Rotation2};
 
 use super::beam_section::BeamAxes;
 use super::direction;
@@ -13,8 +13,8 @@ use crate::section::properties::signed_area;
 /// Part of its volume from which on a branch sticks out too far.
 const MOST_OUTSIDE: f64 = 0.08;
 
-/// Samples of the box round a piece: its part outside is known within a hundredth.
-const SAMPLES: usize = 256;
+/// Samples of the box round a piece: its part outside is known within some thousandths.
+const SAMPLES: usize = 1024;
 
 /// What the pieces of a branch fill, each built with the mean contour of its sections.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,14 +40,18 @@ impl Filled {
 
     /// Adds a piece; one without sections fills nothing that is known.
     fn add(&mut self, making: &Making<'_>, piece: &Piece, tree: &TriangleTree) {
-        let Some(outline) = mean_contour(&making.own_beam_section(piece)) else { return };
+        let section = making.own_beam_section(piece);
+        let Some(outline) = mean_contour(&section) else { return };
+        // Samples that lie along the section tell the same of a part however it is turned.
+        let (.., angle) = section.mean.principal();
+        let roll = Rotation2::new(angle);
         let [start, end] = making.axis(piece);
         let axes = BeamAxes::along(direction(&start, &end));
         let reach = outline.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
         let (mut inside, mut outside) = (0_u32, 0_u32);
         for k in 0..SAMPLES {
             let [t, u, v] = STEPS.map(|step| (0.5 + step * k as f64).fract());
-            let across = Point2::new(2.0 * u - 1.0, 2.0 * v - 1.0) * reach;
+            let across = roll * Point2::new(2.0 * u - 1.0, 2.0 * v - 1.0) * reach;
             if is_in(&outline, &across) {
                 let at = start + (end - start) * t + *axes.y * across.x + *axes.z * across.y;
                 let hit = if tree.contains(&at) { &mut inside } else { &mut outside };
