@@ -1,12 +1,12 @@
 //! What the pieces of a branch fill, and how much of it sticks out of the material.
 
-use nalgebra::{Point2, Rotation2};
+use nalgebra::Rotation2;
 
 use super::beam_section::BeamAxes;
 use super::direction;
 use super::measured::mean_contour;
 use super::pieces::{Making, Piece};
-use super::volume::{STEPS, is_in};
+use super::volume::{is_in, spread};
 use crate::mesh::TriangleTree;
 use crate::section::properties::signed_area;
 
@@ -49,9 +49,8 @@ impl Filled {
         let axes = BeamAxes::along(direction(&start, &end));
         let reach = outline.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
         let (mut inside, mut outside) = (0_u32, 0_u32);
-        for k in 0..SAMPLES {
-            let [t, u, v] = STEPS.map(|step| (0.5 + step * k as f64).fract());
-            let across = roll * Point2::new(2.0 * u - 1.0, 2.0 * v - 1.0) * reach;
+        for (t, across) in spread(SAMPLES) {
+            let across = roll * across * reach;
             if is_in(&outline, &across) {
                 let at = start + (end - start) * t + *axes.y * across.x + *axes.z * across.y;
                 let hit = if tree.contains(&at) { &mut inside } else { &mut outside };

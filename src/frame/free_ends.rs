@@ -14,7 +14,7 @@ use crate::mesh::Surface;
 
 impl Making<'_> {
     /// Lets a branch, straight again, end at interface sections in nodes of its own, anywhere in
-    /// their planes within a radius of the section.
+    /// their planes within a radius of the section. Leaves nodes that no piece ends at.
     pub(super) fn free_ends(&mut self, branch: usize) {
         let corner = |making: &Self| {
             let mut pieces = (0..making.pieces.len()).filter(|&i| making.is_corner(i));
@@ -35,7 +35,6 @@ impl Making<'_> {
                 }
             }
         }
-        self.drop_unused_nodes();
     }
 
     /// Moves the planes of free ends to where their axes meet the cap of the interface section;

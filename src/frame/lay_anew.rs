@@ -130,6 +130,7 @@ fn laid<'a>(
             making.free_ends(branch);
         }
     }
+    making.drop_unused_nodes();
     settle(&mut making)?;
     if ways.iter().any(|(_, laying)| laying.free_ends) && making.reach_caps(surface) {
         settle(&mut making)?;

@@ -33,7 +33,8 @@ impl Making<'_> {
     /// Makes one node of those in one interface section that have come closer than a radius of
     /// their pieces; whether any have.
     fn merge_nodes_of_interfaces(&mut self) -> bool {
-        let nodes: Vec<usize> = (0..self.nodes.len()).filter(|&n| self.is_interface(n)).collect();
+        let nodes: Vec<usize> =
+            (0..self.nodes.len()).filter(|&n| self.nodes[n].interface.is_some()).collect();
         let mut used: BTreeMap<usize, f64> = BTreeMap::new();
         for piece in &self.pieces {
             let radius = self.radius(piece);

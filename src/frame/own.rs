@@ -53,16 +53,18 @@ impl<'a> Making<'a> {
 
     /// What the sections of a piece say, in axes turned to nothing in particular.
     pub(super) fn beam_section(&self, piece: &Piece) -> BeamSection {
-        let [a, b] = self.axis(piece);
-        let axes = BeamAxes::along(direction(&a, &b));
-        BeamSection::new(&self.sections_of(piece), a, (b - a).norm(), &axes)
+        self.said_by(&self.sections_of(piece), piece)
     }
 
-    /// What the sections of a piece that are its branch's own say.
+    /// What those that are its branch's own say.
     pub(super) fn own_beam_section(&self, piece: &Piece) -> BeamSection {
+        self.said_by(&self.own_sections_of(piece), piece)
+    }
+
+    fn said_by(&self, sections: &[&Section], piece: &Piece) -> BeamSection {
         let [a, b] = self.axis(piece);
         let axes = BeamAxes::along(direction(&a, &b));
-        BeamSection::new(&self.own_sections_of(piece), a, (b - a).norm(), &axes)
+        BeamSection::new(sections, a, (b - a).norm(), &axes)
     }
 
     /// How far a section is the piece's own, 1 to 0. Swollen next to a junction it holds a part of

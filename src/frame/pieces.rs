@@ -91,8 +91,8 @@ impl<'a> Making<'a> {
             PointKind::Branch => NodeKind::Bend,
         };
         let mut anchor = Anchor::at(position, radius);
-        let nearest = nearest_section(interfaces, &position);
-        let interface = nearest.filter(|_| kind == NodeKind::Interface);
+        let is_interface = kind == NodeKind::Interface;
+        let interface = is_interface.then(|| nearest_section(interfaces, &position)).flatten();
         if let Some(i) = interface.map(|i| &interfaces[i]) {
             anchor.normal = Unit::try_new(i.normal, 0.0);
             anchor.radius = i.radius();

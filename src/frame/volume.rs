@@ -45,8 +45,16 @@ const CORNERS: usize = 24;
 
 /// Steps of the even sequence in three directions: 1/g, 1/g², 1/g³ with g⁴ = g + 1 (M. Roberts,
 /// "The unreasonable effectiveness of quasirandom sequences", 2018).
-pub(super) const STEPS: [f64; 3] =
-    [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
+const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
+
+/// Places spread evenly along a beam and over the square round its section: the part of the length,
+/// and the place across, each coordinate within ±1.
+pub(super) fn spread(count: usize) -> impl Iterator<Item = (f64, Point2<f64>)> {
+    (0..count).map(|k| {
+        let [t, u, v] = STEPS.map(|step| (0.5 + step * k as f64).fract());
+        (t, Point2::new(2.0 * u - 1.0, 2.0 * v - 1.0))
+    })
+}
 
 /// Measures the beams of a frame, in order, against the part they stand for.
 pub fn volumes(frame: &Frame, part: &TriangleTree) -> Vec<BeamVolumes> {
@@ -145,9 +153,8 @@ impl Solid {
         let near: Vec<&Self> =
             all.iter().filter(|s| !std::ptr::eq(*s, self) && s.may_meet(self)).collect();
         let (mut hits, mut together, mut outside) = (0.0, 0.0, 0.0);
-        for k in 0..count {
-            let [t, u, v] = STEPS.map(|step| (0.5 + step * k as f64).fract());
-            let across = Point2::new(2.0 * u - 1.0, 2.0 * v - 1.0) * self.reach;
+        for (t, across) in spread(count) {
+            let across = across * self.reach;
             if !fills(&self.region(t), &across) {
                 continue;
             }
