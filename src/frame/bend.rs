@@ -11,8 +11,10 @@
 //! is found exactly, from every chain to the next centroid on (dynamic programming, Bellman 1961).
 
 use nalgebra::Point3;
+use rustc_hash::FxHashMap;
 
 use super::NodeKind;
+use super::beam_section::BeamStation;
 use super::depth::Depths;
 use super::deviation::worst;
 use super::pieces::{Making, Piece};
@@ -128,12 +130,18 @@ fn corners_of(making: &Making<'_>, piece: &Piece) -> Vec<usize> {
         k => stops[k - 1].centroid,
     };
     let share = (end - start).norm() / count as f64 / radius;
-    let part = |from: usize, to: usize| {
+    // What a chain costs by its next corner, unless it is more than is known to be needed.
+    let chain = |before: f64, from: usize, to: usize, corner: f64, most: f64| {
         let (a, b) = (place(from), place(to));
-        let cost = |s: &Stop| {
-            s.weight * share * s.depths.in_depths(&segment::offset(&s.centroid, &a, &b)).powi(2)
-        };
-        stops[from..to - 1].iter().map(cost).sum::<f64>()
+        let mut part = 0.0;
+        for s in &stops[from..to - 1] {
+            let offset = segment::offset(&s.centroid, &a, &b);
+            part += s.weight * share * s.depths.in_depths(&offset).powi(2);
+            if before + part > most {
+                return None;
+            }
+        }
+        Some(before + part + corner).filter(|cost| *cost <= most)
     };
     let least_length = |from: usize, to: usize| {
         let at_junction = |n: usize| making.nodes[piece.ends[n]].kind == NodeKind::Junction;
@@ -148,12 +156,15 @@ fn corners_of(making: &Making<'_>, piece: &Piece) -> Vec<usize> {
             let whole = from == 0 && to == count + 1;
             whole || (place(to) - place(from)).norm() >= least_length(from, to)
         });
-        let costs = candidates.map(|from| {
+        // Short parts first: what they cost ends the look at the long ones. Of equals the longest.
+        let mut least: (f64, usize) = (f64::INFINITY, 0);
+        for from in candidates.rev() {
             let corner = if from == 0 { 0.0 } else { price };
-            (best[from].0 + part(from, to) + corner, from)
-        });
-        let none = (f64::INFINITY, 0);
-        best.push(costs.min_by(|a: &(f64, usize), b| a.0.total_cmp(&b.0)).unwrap_or(none));
+            if let Some(cost) = chain(best[from].0, from, to, corner, least.0) {
+                least = (cost, from);
+            }
+        }
+        best.push(least);
     }
     let mut corners = Vec::new();
     let mut place = best[count + 1].1;
@@ -168,14 +179,13 @@ fn corners_of(making: &Making<'_>, piece: &Piece) -> Vec<usize> {
 fn stops(making: &Making<'_>, piece: &Piece) -> Vec<Stop> {
     let stations = making.beam_section(piece).stations;
     let radius = making.radius(piece);
-    let found = |p: u32| stations.iter().find(|s| s.point == p);
-    let own = |p: u32| found(p).map_or(0.0, |s| making.own(piece, radius, s));
+    let station_of: FxHashMap<u32, &BeamStation> = stations.iter().map(|s| (s.point, s)).collect();
+    let own = |p: &u32| station_of.get(p).map_or(0.0, |s| making.own(piece, radius, s));
     let points = piece.points.iter().enumerate();
     points
         .filter_map(|(at, &p)| {
-            let section = making.sections[p as usize].as_ref()?;
-            let (centroid, depths) = (section.centroid, section.depths());
-            Some(Stop { at, centroid, depths, weight: own(p) })
+            let centroid = making.sections[p as usize].as_ref()?.centroid;
+            Some(Stop { at, centroid, depths: making.depths[p as usize]?, weight: own(&p) })
         })
         .collect()
 }

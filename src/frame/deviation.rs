@@ -34,8 +34,8 @@ pub(super) fn worst(making: &Making<'_>, piece: &Piece) -> Option<Worst> {
     let places = stations.iter().filter(is_own).map(|s| &s.point);
     places
         .filter_map(|&p| {
-            let section = making.sections[p as usize].as_ref()?;
-            let (centroid, depths) = (section.centroid, section.depths());
+            let centroid = making.sections[p as usize].as_ref()?.centroid;
+            let depths = making.depths[p as usize]?;
             let offsets = near.iter().map(|[a, b]| segment::offset(&centroid, a, b));
             let (depths, distance) = offsets
                 .map(|offset| (depths.in_depths(&offset), offset.norm()))

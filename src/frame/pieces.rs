@@ -1,9 +1,11 @@
 //! Nodes and straight pieces in the making: what normalization moves, breaks and joins.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use nalgebra::{Point3, Unit, Vector3};
 
+use super::depth::Depths;
 use super::params::FrameParams;
 use super::section_at::Section;
 use super::solve::{Anchor, FAINT, Pull, Tie, solve_nodes};
@@ -37,6 +39,8 @@ const FARTHEST_SLIDE: f64 = 0.35;
 pub(super) struct Making<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) sections: &'a [Option<Section>],
+    /// How deep each section is.
+    pub(super) depths: Rc<[Option<Depths>]>,
     pub(super) nodes: Vec<Node>,
     /// Where each node is held.
     pub(super) anchors: Vec<Anchor>,
@@ -57,6 +61,7 @@ impl<'a> Making<'a> {
         let mut making = Self {
             skeleton,
             sections,
+            depths: sections.iter().map(|s| s.as_ref().map(Section::depths)).collect(),
             nodes: vec![],
             anchors: vec![],
             pieces: vec![],
@@ -169,7 +174,7 @@ impl<'a> Making<'a> {
                 // Squared: a section swollen by half has a tenth of the pull of a clean one.
                 let weight =
                     self.own(piece, radius, station).powi(2) * station.moments.area * share;
-                let metric = found.depths().metric();
+                let metric = self.depths[station.point as usize]?.metric();
                 Some(Pull { ends: piece.ends, centroid: found.centroid, weight, metric })
             })
             .collect()

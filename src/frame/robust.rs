@@ -17,24 +17,28 @@ pub(super) fn weigh(stations: &mut [BeamStation]) {
         return;
     }
     // Begin from the medians: one swollen end must not tilt the first lines.
-    let sizes = [size_of_area, size_of_moment];
-    let medians = sizes.map(|size| median(stations.iter().map(size).collect()));
+    let sizes: [Vec<f64>; 2] =
+        [size_of_area, size_of_moment].map(|size| stations.iter().map(size).collect());
+    let medians = sizes.each_ref().map(|sizes| median(sizes.clone()));
     // In parts of the area: twice those of a side.
-    let off = |s: &BeamStation, expected: [f64; 2]| {
-        let part = |k: usize| 2.0 * (sizes[k](s) / expected[k] - 1.0).abs();
+    let off = |i: usize, expected: [f64; 2]| {
+        let part = |k: usize| 2.0 * (sizes[k][i] / expected[k] - 1.0).abs();
         part(0).max(part(1))
     };
-    let mut offs: Vec<f64> = stations.iter().map(|s| off(s, medians)).collect();
+    let mut offs: Vec<f64> = (0..stations.len()).map(|i| off(i, medians)).collect();
     weigh_by(stations, &offs, 0.05);
     for _ in 0..4 {
-        let lines = sizes.map(|size| line(stations, size));
-        let expected = |s: &BeamStation| {
+        let line_through = |sizes: &Vec<f64>| {
+            line_of(stations.iter().zip(sizes).map(|(s, &size)| (s.at, s.weight, size)))
+        };
+        let lines = sizes.each_ref().map(line_through);
+        let expected = |at: f64| {
             [0, 1].map(|k| {
                 let [at_start, at_end] = lines[k];
-                (at_start + (at_end - at_start) * s.at).max(0.1 * medians[k])
+                (at_start + (at_end - at_start) * at).max(0.1 * medians[k])
             })
         };
-        offs = stations.iter().map(|s| off(s, expected(s))).collect();
+        offs = stations.iter().enumerate().map(|(i, s)| off(i, expected(s.at))).collect();
         weigh_by(stations, &offs, 0.0);
     }
 }
