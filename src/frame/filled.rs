@@ -7,7 +7,7 @@ use super::direction;
 use super::measured::mean_contour;
 use super::pieces::{Making, Piece};
 use super::volume::{is_in, spread};
-use crate::mesh::TriangleTree;
+use crate::mesh::Shadow;
 use crate::section::properties::signed_area;
 
 /// Part of its volume from which on a branch sticks out too far.
@@ -15,6 +15,13 @@ const MOST_OUTSIDE: f64 = 0.08;
 
 /// Samples of the box round a piece: its part outside is known within some thousandths.
 const SAMPLES: usize = 1024;
+
+/// Samples inside each piece that tell of a branch that hardly sticks out: its part outside is known
+/// within a hundredth.
+const FEW_SAMPLES: usize = 200;
+
+/// Part of its volume, found with few samples, up to which a branch hardly sticks out.
+const HARDLY_OUTSIDE: f64 = 0.5 * MOST_OUTSIDE;
 
 /// What the pieces of a branch fill, each built with the mean contour of its sections.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,18 +35,37 @@ pub(super) struct Filled {
 }
 
 impl Filled {
+    /// Number of pieces of a branch.
+    pub(super) fn count(making: &Making<'_>, branch: usize) -> u32 {
+        making.pieces.iter().filter(|p| p.branch == branch).count() as u32
+    }
+
     /// Measures a branch.
-    pub(super) fn of_branch(making: &Making<'_>, branch: usize, tree: &TriangleTree) -> Self {
+    pub(super) fn of_branch(making: &Making<'_>, branch: usize, shadow: &Shadow<'_>) -> Self {
+        Self::sampled(making, branch, shadow, SAMPLES)
+    }
+
+    /// Measures a branch roughly, and as well as others only where it might stick out too far.
+    pub(super) fn at_a_glance(making: &Making<'_>, branch: usize, shadow: &Shadow<'_>) -> Self {
+        let rough = Self::sampled(making, branch, shadow, FEW_SAMPLES);
+        if rough.part_outside() <= HARDLY_OUTSIDE {
+            return rough;
+        }
+        Self::of_branch(making, branch, shadow)
+    }
+
+    /// * `most`: samples inside each piece, at most.
+    fn sampled(making: &Making<'_>, branch: usize, shadow: &Shadow<'_>, most: usize) -> Self {
         let mut sum = Self::default();
         for piece in making.pieces.iter().filter(|p| p.branch == branch) {
             sum.pieces += 1;
-            sum.add(making, piece, tree);
+            sum.add(making, piece, shadow, most);
         }
         sum
     }
 
     /// Adds a piece; one without sections fills nothing that is known.
-    fn add(&mut self, making: &Making<'_>, piece: &Piece, tree: &TriangleTree) {
+    fn add(&mut self, making: &Making<'_>, piece: &Piece, shadow: &Shadow<'_>, most: usize) {
         let section = making.own_beam_section(piece);
         let Some(outline) = mean_contour(&section) else { return };
         // Samples that lie along the section tell the same of a part however it is turned.
@@ -48,14 +74,12 @@ impl Filled {
         let [start, end] = making.axis(piece);
         let axes = BeamAxes::along(direction(&start, &end));
         let reach = outline.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+        let all = spread(SAMPLES).map(|(t, across)| (t, roll * across * reach));
         let (mut inside, mut outside) = (0_u32, 0_u32);
-        for (t, across) in spread(SAMPLES) {
-            let across = roll * across * reach;
-            if is_in(&outline, &across) {
-                let at = start + (end - start) * t + *axes.y * across.x + *axes.z * across.y;
-                let hit = if tree.contains(&at) { &mut inside } else { &mut outside };
-                *hit += 1;
-            }
+        for (t, across) in all.filter(|(_, across)| is_in(&outline, across)).take(most) {
+            let at = start + (end - start) * t + *axes.y * across.x + *axes.z * across.y;
+            let hit = if shadow.contains(&at) { &mut inside } else { &mut outside };
+            *hit += 1;
         }
         let volume = signed_area(&outline).abs() * (end - start).norm();
         self.volume += volume;

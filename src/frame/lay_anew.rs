@@ -21,7 +21,7 @@ use std::ops::ControlFlow;
 use super::bend::offsets_from;
 use super::filled::Filled;
 use super::pieces::Making;
-use crate::mesh::Surface;
+use crate::mesh::{Shadow, Surface};
 
 /// Price of a piece: a corner must take away more than this part of the volume of its branch. The
 /// bent legs of a tripod gain 4 by theirs, rough cast struts one.
@@ -85,10 +85,15 @@ pub(super) fn lay_anew<'a>(
     surface: &Surface,
     mut settle: impl FnMut(&mut Making<'a>) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    let filled = |making: &Making<'_>, branch| Filled::of_branch(making, branch, &surface.tree);
+    let shadow = Shadow::new(&surface.tree);
     let branches = 0..making.skeleton.branches.len();
-    let mut choices: Vec<Choice> =
-        branches.clone().map(|branch| Choice::new(filled(making, branch))).collect();
+    let now = |branch| {
+        // Only of those that are tried the cost is asked.
+        let is_tried = is_broken_at_interface(making, branch);
+        let measure = if is_tried { Filled::of_branch } else { Filled::at_a_glance };
+        Choice::new(measure(making, branch, &shadow))
+    };
+    let mut choices: Vec<Choice> = branches.clone().map(now).collect();
     for laying in LAYINGS {
         let is_tried = |&b: &usize| {
             choices[b].now.sticks_out()
@@ -101,7 +106,12 @@ pub(super) fn lay_anew<'a>(
         let ways: Vec<(usize, Laying)> = tried.iter().map(|&b| (b, laying)).collect();
         let trial = laid(making, &ways, surface, &mut settle)?;
         for branch in tried {
-            let (choice, then) = (&mut choices[branch], filled(&trial, branch));
+            let choice = &mut choices[branch];
+            // However well it fills the material, it costs more.
+            if PRICE * f64::from(Filled::count(&trial, branch)) >= choice.cost {
+                continue;
+            }
+            let then = Filled::of_branch(&trial, branch, &shadow);
             let is_plain = || then.pieces < choice.now.pieces && bow(&trial, branch) < STRAIGHT;
             if choice.now.sticks_out() || is_plain() {
                 choice.consider(laying, &then);

@@ -86,8 +86,7 @@ fn shape_beams(
         members[group].push(i);
         let beam = &mut frame.beams[i];
         if let Some(own) = &targets[i] {
-            let profile = matched[group].profile.clone();
-            beam.shape = BeamShape::constant(Matched::of(profile, own)?);
+            beam.shape = BeamShape::constant(matched[group].turned_onto(own)?);
         }
     }
     members.iter().for_each(|group| equalize_lengths(frame, group));

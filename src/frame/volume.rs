@@ -14,7 +14,7 @@ use nalgebra::{Point2, Point3};
 
 use super::beam_section::BeamAxes;
 use super::{Beam, BeamShape, Frame};
-use crate::mesh::TriangleTree;
+use crate::mesh::{Shadow, TriangleTree};
 use crate::section::properties::{Contours, signed_area};
 
 /// Volumes of one beam from node to node, mm³.
@@ -58,10 +58,11 @@ pub(super) fn spread(count: usize) -> impl Iterator<Item = (f64, Point2<f64>)> {
 
 /// Measures the beams of a frame, in order, against the part they stand for.
 pub fn volumes(frame: &Frame, part: &TriangleTree) -> Vec<BeamVolumes> {
+    let part = Shadow::new(part);
     let solids: Vec<Solid> = frame.beams.iter().map(|beam| Solid::new(beam, frame)).collect();
     let count = (SAMPLES / solids.len().max(1)).max(LEAST_SAMPLES);
     let measure = |solid: &Solid| {
-        let [share, outside] = solid.shares(&solids, part, count);
+        let [share, outside] = solid.shares(&solids, &part, count);
         let alone = solid.volume();
         BeamVolumes { alone, share: alone * share, outside: alone * outside }
     };
@@ -149,7 +150,7 @@ impl Solid {
     }
 
     /// Means over the solid of 1/c, and of 1/c where it is outside of the part.
-    fn shares(&self, all: &[Self], part: &TriangleTree, count: usize) -> [f64; 2] {
+    fn shares(&self, all: &[Self], part: &Shadow<'_>, count: usize) -> [f64; 2] {
         let near: Vec<&Self> =
             all.iter().filter(|s| !std::ptr::eq(*s, self) && s.may_meet(self)).collect();
         let (mut hits, mut together, mut outside) = (0.0, 0.0, 0.0);

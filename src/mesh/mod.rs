@@ -17,6 +17,7 @@ mod order;
 mod orient;
 pub mod prepare;
 pub mod set;
+mod shadow;
 pub mod shell;
 pub mod triangle_tree;
 
@@ -27,4 +28,5 @@ pub use label::{Label, LabelParams};
 pub(crate) use prepare::prepare_watched;
 pub use prepare::{MeshReport, Surface, prepare};
 pub use set::Labels;
+pub(crate) use shadow::Shadow;
 pub use triangle_tree::TriangleTree;

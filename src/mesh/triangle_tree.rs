@@ -5,7 +5,7 @@
 
 use std::cell::Cell;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point2, Point3, Vector3};
 
 use super::contour::Plane;
 
@@ -14,7 +14,7 @@ const LEAF: usize = 4;
 
 /// Directions for the inside test, far from the axes along which CAD models have their faces. The
 /// second is taken when the first meets an edge or a corner exactly, and so on.
-const DIRECTIONS: [[f64; 3]; 4] = [
+pub(super) const DIRECTIONS: [[f64; 3]; 4] = [
     [0.367_879_441, 0.577_215_664, 0.729_153_2],
     [-0.618_033_988, 0.309_016_994, 0.726_2],
     [0.271_828_182, -0.683_012_70, 0.667_7],
@@ -110,6 +110,11 @@ impl TriangleTree {
             }
         }
         (low.map(|x| (x as f32).next_down()), high.map(|x| (x as f32).next_up()))
+    }
+
+    /// The triangles it was made from.
+    pub(super) fn corners(&self) -> &[[Point3<f64>; 3]] {
+        &self.corners
     }
 
     /// Whether a point lies inside the surface (winding number above zero).
@@ -284,21 +289,21 @@ impl TreeNode {
 /// A ray in the shape the watertight triangle test wants it: sheared so that it runs along z.
 ///
 /// Woop, Benthin, Wald: *Watertight Ray/Triangle Intersection*, JCGT 2 (2013).
-struct Ray {
+pub(super) struct Ray {
     origin: Point3<f64>,
     inverse: Vector3<f64>,
     axes: [usize; 3],
     shear: [f64; 3],
 }
 
-enum Hit {
+pub(super) enum Hit {
     Miss,
     Edge,
     At(f64, i32),
 }
 
 impl Ray {
-    fn new(origin: &Point3<f64>, direction: &Vector3<f64>) -> Self {
+    pub(super) fn new(origin: &Point3<f64>, direction: &Vector3<f64>) -> Self {
         let z = direction.iamax();
         let (x, y) = if direction[z] < 0.0 {
             ((z + 2) % 3, (z + 1) % 3)
@@ -328,7 +333,13 @@ impl Ray {
         enter <= leave
     }
 
-    fn cross(&self, corners: &[Point3<f64>; 3]) -> Hit {
+    /// A vector seen along the ray.
+    pub(super) fn flat(&self, v: &Vector3<f64>) -> Point2<f64> {
+        let [x, y, z] = self.axes;
+        Point2::new(v[x] - self.shear[0] * v[z], v[y] - self.shear[1] * v[z])
+    }
+
+    pub(super) fn cross(&self, corners: &[Point3<f64>; 3]) -> Hit {
         let [x, y, z] = self.axes;
         let [sx, sy, sz] = self.shear;
         let [a, b, c] = corners.map(|p| p - self.origin);

@@ -1,8 +1,10 @@
 //! Rays from a point through a region: where they are in the material.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Point2, Vector2};
 
-use super::properties::{Contours, sides};
+use super::properties::sides;
 
 /// Distances, ascending, at which a ray from `centre` crosses a polygon.
 ///
@@ -14,19 +16,21 @@ pub(crate) fn crossings(
     direction: Vector2<f64>,
 ) -> Vec<f64> {
     let mut found: Vec<f64> = sides(polygon)
-        .filter_map(|(p, q)| {
-            let (p, q) = (p - centre, q - centre);
-            let (hp, hq) = (direction.perp(&p), direction.perp(&q));
-            if (hp >= 0.0) == (hq >= 0.0) {
-                return None;
-            }
-            let t = hp / (hp - hq);
-            Some(direction.dot(&(p + (q - p) * t)))
-        })
-        .filter(|&r| r > 0.0)
+        .filter_map(|(p, q)| crossing(&(p - centre), &(q - centre), &direction))
         .collect();
     found.sort_by(f64::total_cmp);
     found
+}
+
+/// Where a ray from the origin crosses the side `p q`.
+fn crossing(p: &Vector2<f64>, q: &Vector2<f64>, direction: &Vector2<f64>) -> Option<f64> {
+    let (hp, hq) = (direction.perp(p), direction.perp(q));
+    if (hp >= 0.0) == (hq >= 0.0) {
+        return None;
+    }
+    let t = hp / (hp - hq);
+    let r = direction.dot(&(p + (q - p) * t));
+    (r > 0.0).then_some(r)
 }
 
 /// What a fan of evenly spaced rays sees of a region: the crossings of each ray, ascending.
@@ -35,26 +39,34 @@ pub(crate) struct Fan(Vec<Vec<f64>>);
 
 impl Fan {
     /// Casts `count` rays from `centre`, the first along the first coordinate turned by `turn`.
-    pub(crate) fn cast(contours: &Contours, centre: Point2<f64>, turn: f64, count: usize) -> Self {
-        Self(
-            (0..count)
-                .map(|i| {
-                    let angle = turn + std::f64::consts::TAU * i as f64 / count as f64;
-                    let direction = Vector2::new(angle.cos(), angle.sin());
-                    let mut all: Vec<f64> = contours
-                        .polygons()
-                        .flat_map(|polygon| crossings(polygon, centre, direction))
-                        .collect();
-                    all.sort_by(f64::total_cmp);
-                    all
-                })
-                .collect(),
-        )
+    pub(crate) fn cast<'p>(
+        polygons: impl IntoIterator<Item = &'p Vec<Point2<f64>>>,
+        centre: Point2<f64>,
+        turn: f64,
+        count: usize,
+    ) -> Self {
+        let directions = directions(turn, count);
+        let mut all = vec![Vec::new(); count];
+        for polygon in polygons {
+            for (p, q) in sides(polygon) {
+                let (p, q) = (p - centre, q - centre);
+                for i in rays_near(&p, &q, turn, count) {
+                    all[i].extend(crossing(&p, &q, &directions[i]));
+                }
+            }
+        }
+        all.iter_mut().for_each(|found| found.sort_by(f64::total_cmp));
+        Self(all)
     }
 
     /// Rays of the fan.
     pub(crate) fn len(&self) -> usize {
         self.0.len()
+    }
+
+    /// The crossings of each ray.
+    pub(crate) fn rays(&self) -> &[Vec<f64>] {
+        &self.0
     }
 
     /// Area that belongs to one of two regions only, ½ Σ ∫ |1_a − 1_b| d(r²) Δθ, mm².
@@ -64,20 +76,56 @@ impl Fan {
         let n = self.len();
         let sum: f64 =
             (0..n).map(|i| ray_difference(&self.0[i], &other.0[(i + n - shift % n) % n])).sum();
-        0.5 * sum * std::f64::consts::TAU / n as f64
+        0.5 * sum * TAU / n as f64
     }
+}
+
+/// Unit vectors of `count` evenly spaced rays, the first along the first coordinate turned by `turn`.
+pub(crate) fn directions(turn: f64, count: usize) -> Vec<Vector2<f64>> {
+    let direction = |i: usize| {
+        let (sin, cos) = (turn + TAU * i as f64 / count as f64).sin_cos();
+        Vector2::new(cos, sin)
+    };
+    (0..count).map(direction).collect()
+}
+
+/// The rays of a fan that may cross a side `p q`, seen from its centre: those between the directions
+/// of its ends, and one more on either side for rounding.
+fn rays_near(
+    p: &Vector2<f64>,
+    q: &Vector2<f64>,
+    turn: f64,
+    count: usize,
+) -> impl Iterator<Item = usize> + use<> {
+    let n = count as f64;
+    let place = |v: &Vector2<f64>| (v.y.atan2(v.x) - turn) / TAU * n;
+    let (from, to) = (place(p), place(q));
+    // The side is seen the shorter way round.
+    let span = to - from - ((to - from) / n).round() * n;
+    let first = (from.min(from + span)).floor() - 1.0;
+    let rays = span.abs().ceil() + 4.0;
+    // One that passes the centre closely may be seen either way round.
+    let is_clear = span.abs() < 0.5 * n - 2.0 && rays < n;
+    let (first, rays) = if is_clear { (first.rem_euclid(n), rays as usize) } else { (0.0, count) };
+    (0..rays).map(move |i| (first as usize + i) % count)
 }
 
 /// ∫ |1_a − 1_b| d(r²) along one ray.
 ///
-/// Both sets of crossings together, sorted, toggle whether the ray is in one region only. The
-/// centre of a hollow region is outside; the count of crossings tells.
+/// The crossings of both, ascending, toggle whether the ray is in one region only. The centre of a
+/// hollow region is outside; the count of crossings tells.
 fn ray_difference(a: &[f64], b: &[f64]) -> f64 {
-    let mut merged: Vec<f64> = a.iter().chain(b).copied().collect();
-    merged.sort_by(f64::total_cmp);
-    let mut one_only = !merged.len().is_multiple_of(2);
+    let mut one_only = !(a.len() + b.len()).is_multiple_of(2);
     let (mut sum, mut from) = (0.0, 0.0);
-    for r in merged {
+    let (mut i, mut j) = (0, 0);
+    while i < a.len() || j < b.len() {
+        let r = if j == b.len() || (i < a.len() && a[i] <= b[j]) {
+            i += 1;
+            a[i - 1]
+        } else {
+            j += 1;
+            b[j - 1]
+        };
         if one_only {
             sum += r * r - from;
         }
@@ -93,6 +141,7 @@ mod tests {
 
     use super::*;
     use crate::section::outline::{Outline, Region};
+    use crate::section::properties::Contours;
 
     fn circle(radius: f64) -> Contours {
         Contours::of_region(&Region::solid(Outline::circle(radius)), 90)
@@ -100,7 +149,7 @@ mod tests {
 
     #[test]
     fn circles_differ_by_the_ring_between_them() {
-        let [a, b] = [2.0, 3.0].map(|r| Fan::cast(&circle(r), Point2::origin(), 0.0, 90));
+        let [a, b] = [2.0, 3.0].map(|r| Fan::cast(circle(r).polygons(), Point2::origin(), 0.0, 90));
         assert!((a.difference(&b, 0) - 5.0 * PI).abs() < 0.01);
         assert!(a.difference(&a, 7) < 0.01);
     }
@@ -108,9 +157,30 @@ mod tests {
     #[test]
     fn tube_differs_from_its_bar_by_the_bore() {
         let tube = Contours { outer: circle(3.0).outer, holes: vec![circle(2.0).outer] };
-        let tube = Fan::cast(&tube, Point2::origin(), 0.0, 90);
-        let bar = Fan::cast(&circle(3.0), Point2::origin(), 0.0, 90);
+        let tube = Fan::cast(tube.polygons(), Point2::origin(), 0.0, 90);
+        let bar = Fan::cast(circle(3.0).polygons(), Point2::origin(), 0.0, 90);
         assert!((tube.difference(&bar, 0) - 4.0 * PI).abs() < 0.01);
+    }
+
+    #[test]
+    fn fan_finds_what_each_ray_finds_alone() {
+        // A star far off the centre of the fan, one round it, and one whose side runs through it.
+        let star = |centre: Point2<f64>, size: f64| -> Vec<Point2<f64>> {
+            let corner = |i: usize| size * if i.is_multiple_of(2) { 1.0 } else { 0.3 };
+            let at = directions(0.2, 14).into_iter().enumerate();
+            at.map(|(i, direction)| centre + direction * corner(i)).collect()
+        };
+        let origin = Point2::origin();
+        let square = [(-2.0, 0.0), (3.0, 0.0), (3.0, 4.0), (-2.0, 4.0)];
+        let square = square.map(|(x, y)| Point2::new(x, y)).to_vec();
+        for polygon in [star(origin, 5.0), star(Point2::new(7.0, -3.0), 4.0), square] {
+            for (turn, count) in [(0.0, 7), (-2.9, 192), (11.0, 360)] {
+                let fan = Fan::cast([&polygon], origin, turn, count);
+                for (found, direction) in fan.rays().iter().zip(directions(turn, count)) {
+                    assert_eq!(*found, crossings(&polygon, origin, direction), "{turn} {count}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -10,7 +10,7 @@
 //!    such that the spline through the samples has the mean area, the mean principal direction and
 //!    the mean ratio of I_1 to I_2.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use nalgebra::{Matrix2, Point2, Rotation2, Vector2};
 
@@ -18,7 +18,7 @@ use super::Freeform;
 use crate::section::error::SectionError;
 use crate::section::outline::Outline;
 use crate::section::properties::{Contours, Moments, sides, signed_area};
-use crate::section::rays::crossings;
+use crate::section::rays::{Fan, crossings, directions};
 
 /// Why contours have no mean outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -96,11 +96,10 @@ pub fn average_outline(
     }
     let samples = SAMPLES_PER_POINT * points;
     let curve = |mean: Vec<Point2<f64>>| smooth(&mean, points, &goal);
-    let mean =
-        by_rays(&centred, samples).unwrap_or_else(|| by_way_around(&centred, samples, &goal));
-    curve(mean)
-        .or_else(|| curve(by_farthest(&centred, samples)))
-        .ok_or(AverageError::NoSimpleOutline)
+    let fan = |contour: &Vec<_>| Fan::cast([contour], Point2::origin(), 0.0, samples);
+    let fans: Vec<Fan> = centred.iter().map(fan).collect();
+    let mean = by_rays(&fans, samples).unwrap_or_else(|| by_way_around(&centred, samples, &goal));
+    curve(mean).or_else(|| curve(by_farthest(&fans, samples))).ok_or(AverageError::NoSimpleOutline)
 }
 
 /// The spline along a mean outline with the moments of `goal`; `None` if it crosses itself.
@@ -121,36 +120,19 @@ fn about_centroid(contour: &[Point2<f64>], centroid: Point2<f64>) -> Vec<Point2<
 }
 
 /// Root mean square of the radii over even directions; `None` if a ray meets a contour twice.
-fn by_rays(contours: &[Vec<Point2<f64>>], samples: usize) -> Option<Vec<Point2<f64>>> {
-    (0..samples)
-        .map(|i| {
-            let (sin, cos) = (TAU * i as f64 / samples as f64).sin_cos();
-            let direction = Vector2::new(cos, sin);
-            let mut squares = 0.0;
-            for contour in contours {
-                let [radius] = crossings(contour, Point2::origin(), direction)[..] else {
-                    return None;
-                };
-                squares += radius * radius;
-            }
-            Some((direction * (squares / contours.len() as f64).sqrt()).into())
-        })
-        .collect()
+fn by_rays(fans: &[Fan], samples: usize) -> Option<Vec<Point2<f64>>> {
+    let is_single = |fan: &Fan| fan.rays().iter().all(|crossings| crossings.len() == 1);
+    fans.iter().all(is_single).then(|| by_farthest(fans, samples))
 }
 
 /// Root mean square of the farthest radii over even directions: an outline without folds.
-fn by_farthest(contours: &[Vec<Point2<f64>>], samples: usize) -> Vec<Point2<f64>> {
-    (0..samples)
-        .map(|i| {
-            let (sin, cos) = (TAU * i as f64 / samples as f64).sin_cos();
-            let direction = Vector2::new(cos, sin);
-            let farthest = |c: &Vec<_>| {
-                crossings(c, Point2::origin(), direction).last().copied().unwrap_or(0.0)
-            };
-            let squares: f64 = contours.iter().map(|c| farthest(c).powi(2)).sum();
-            (direction * (squares / contours.len() as f64).sqrt()).into()
-        })
-        .collect()
+fn by_farthest(fans: &[Fan], samples: usize) -> Vec<Point2<f64>> {
+    let point = |(i, direction): (usize, Vector2<f64>)| {
+        let farthest = |fan: &Fan| fan.rays()[i].last().copied().unwrap_or(0.0);
+        let squares: f64 = fans.iter().map(|fan| farthest(fan).powi(2)).sum();
+        (direction * (squares / fans.len() as f64).sqrt()).into()
+    };
+    directions(0.0, samples).into_iter().enumerate().map(point).collect()
 }
 
 /// Mean of the points at equal parts of the way around, from where axis 1 leaves each contour.
@@ -244,6 +226,8 @@ impl Moments {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
 
     fn ellipse(a: f64, b: f64, turn: f64, n: usize) -> Vec<Point2<f64>> {

@@ -22,7 +22,7 @@ pub struct Freeform {
     points: Vec<Point2<f64>>,
 }
 
-/// Sweeps over the equations of the spline. Each brings the slopes nearer by a factor of 2 at
+/// Most sweeps over the equations of the spline. Each brings the slopes nearer by a factor of 2 at
 /// least, since the diagonal is twice the sum of the rest: 60 reach the rounding of the numbers.
 const SWEEPS: usize = 60;
 
@@ -69,14 +69,25 @@ impl Freeform {
         let chords: Vec<Vector2<f64>> =
             (0..n).map(|i| self.points[(i + 1) % n] - self.points[i]).collect();
         let lengths: Vec<f64> = chords.iter().map(Vector2::norm).collect();
-        let mut slopes = vec![Vector2::zeros(); n];
-        for _ in 0..SWEEPS {
-            for i in 0..n {
+        let sides: Vec<_> = (0..n)
+            .map(|i| {
                 let before = (i + n - 1) % n;
                 let (g, h) = (lengths[before], lengths[i]);
                 let right = (chords[before] / (g * g) + chords[i] / (h * h)) * 3.0;
-                let rest = slopes[before] / g + slopes[(i + 1) % n] / h;
-                slopes[i] = (right - rest) / (2.0 / g + 2.0 / h);
+                (g, h, right, 2.0 / g + 2.0 / h)
+            })
+            .collect();
+        let mut slopes = vec![Vector2::zeros(); n];
+        for _ in 0..SWEEPS {
+            let mut moved = false;
+            for (i, (g, h, right, diagonal)) in sides.iter().enumerate() {
+                let rest = slopes[(i + n - 1) % n] / *g + slopes[(i + 1) % n] / *h;
+                let slope = (right - rest) / *diagonal;
+                moved |= slope != slopes[i];
+                slopes[i] = slope;
+            }
+            if !moved {
+                break;
             }
         }
         slopes

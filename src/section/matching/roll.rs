@@ -8,7 +8,7 @@ use super::target::folded_angle;
 use super::{MatchError, MatchErrors, MatchMode, MatchTarget, Matched};
 use crate::section::freeform::average_outline;
 use crate::section::profile::{Profile, Shape};
-use crate::section::properties::Contours;
+use crate::section::properties::{Contours, SectionProperties};
 use crate::section::rays::Fan;
 
 /// I_1/I_2 below which a section has no strong axis to speak of, and a profile with corners is
@@ -33,6 +33,22 @@ impl Matched {
     /// If the profile or the contour of the target has no area properties.
     pub fn of(profile: Profile, target: &MatchTarget) -> Result<Self, MatchError> {
         let properties = profile.properties()?;
+        Self::with_properties(profile, properties, target)
+    }
+
+    /// The matched profile, turned onto a section that it was not matched to itself.
+    ///
+    /// # Errors
+    /// If the contour of the target has no area properties.
+    pub(crate) fn turned_onto(&self, target: &MatchTarget) -> Result<Self, MatchError> {
+        Self::with_properties(self.profile.clone(), self.properties, target)
+    }
+
+    fn with_properties(
+        profile: Profile,
+        properties: SectionProperties,
+        target: &MatchTarget,
+    ) -> Result<Self, MatchError> {
         let errors = MatchErrors::of(&properties, target);
         let symmetry = profile.shape.symmetry();
         let roll = folded_angle(target.principal_angle - properties.principal_angle, symmetry);
@@ -60,13 +76,13 @@ impl Outlines {
         let centre = measured.moments()?.centroid();
         Ok(Self {
             profile: Contours::of_region(&profile.region(), CORNERS_PER_QUARTER),
-            measured: Fan::cast(measured, centre, 0.0, RAYS),
+            measured: Fan::cast(measured.polygons(), centre, 0.0, RAYS),
         })
     }
 
     /// The profile turned by an angle, as a fan.
     fn fan(&self, roll: f64) -> Fan {
-        Fan::cast(&self.profile, Point2::origin(), -roll, RAYS)
+        Fan::cast(self.profile.polygons(), Point2::origin(), -roll, RAYS)
     }
 
     /// The roll among the possible ones that leaves least uncovered, and how much that is, mm².
