@@ -37,10 +37,13 @@ impl Section {
 }
 
 impl Depths {
-    /// An offset in half-depths of the section in its direction.
+    /// An offset in half-depths of the section in its direction; across the section, where there is
+    /// none, in those of a round one of its area.
     pub(super) fn in_depths(&self, offset: &Vector3<f64>) -> f64 {
         let part = |i: usize| offset.dot(&self.along[i]) / self.half[i];
-        part(0).hypot(part(1))
+        let normal = self.along[0].cross(&self.along[1]);
+        let across = offset.dot(&normal) / (self.half[0] * self.half[1]).sqrt();
+        part(0).hypot(part(1)).hypot(across)
     }
 
     /// What offsets weigh by direction: the identity for a round section.
