@@ -75,4 +75,15 @@ mod tests {
         let metric = depths.metric();
         assert!((metric[(2, 2)] / metric[(1, 1)] - 64.0).abs() < 1e-9);
     }
+
+    #[test]
+    fn a_beam_that_passes_below_a_section_is_no_nearer_than_it_is() {
+        let plane = Plane::new(Point3::origin(), Vector3::z_axis());
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let contour = corners.map(|[x, y]| Point3::new(x, y, 0.0)).to_vec();
+        let square = Section { point: 0, plane, contour, area: 4.0, centroid: Point3::origin() };
+        let depths = square.depths();
+        let (below, beside) = (Vector3::new(0.0, 0.0, -7.0), Vector3::new(7.0, 0.0, 0.0));
+        assert!((depths.in_depths(&below) - depths.in_depths(&beside)).abs() < 1e-9);
+    }
 }

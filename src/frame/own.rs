@@ -36,11 +36,11 @@ impl<'a> Making<'a> {
         }
         let branch = &self.skeleton.branches[piece.branch].points;
         let place = |p: Option<&u32>| branch.iter().position(|q| Some(q) == p);
-        let (Some(first), Some(last)) = (place(piece.points.first()), place(piece.points.last()))
-        else {
-            return along;
-        };
-        let (before, after) = (own(&branch[..first]), own(&branch[last + 1..]));
+        let corner = |end: usize| place(self.corner_points.get(&piece.ends[end]));
+        let first = place(piece.points.first());
+        let Some(first) = first.or(corner(0).map(|c| c + 1)).or(corner(1)) else { return along };
+        let next = place(piece.points.last()).map_or(first, |last| last + 1);
+        let (before, after) = (own(&branch[..first]), own(&branch[next..]));
         let before = &before[before.len().saturating_sub(BORROWED)..];
         before.iter().chain(after.iter().take(BORROWED)).copied().collect()
     }
@@ -135,6 +135,13 @@ mod tests {
             making.own_sections_of(&making.pieces[piece]).iter().map(|s| s.point).collect()
         };
         assert_eq!(of(0), [1, 2, 3, 4, 5]);
+        assert_eq!(of(1), [4, 5], "of the branch before it");
+        // Broken once more, the last piece but one has no point at all.
+        making.split(1, 0);
+        let of = |piece: usize| -> Vec<u32> {
+            making.own_sections_of(&making.pieces[piece]).iter().map(|s| s.point).collect()
+        };
+        assert_eq!(making.pieces[1].points, [0; 0]);
         assert_eq!(of(1), [4, 5], "of the branch before it");
     }
 }
