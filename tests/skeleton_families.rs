@@ -9,7 +9,7 @@ use beamwright::skeleton::{
 };
 use common::TestMesh;
 use common::families::{cylinder, cylinder_between_pads, quarter_bend, together, torus};
-use common::frame;
+use common::frame::{self, TrueFrame};
 use common::march_cubes::surface_of;
 
 fn marched(mesh: &TestMesh) -> Result<Marched, SkeletonError> {
@@ -154,5 +154,25 @@ fn a_plate_is_said_to_be_no_beam_and_beams_are_not() {
     assert!(is_told_not_beam_like(&marched(&plate).expect("a skeleton")));
     for (name, mesh, _) in parts() {
         assert!(!is_told_not_beam_like(&marched(&mesh).expect("a skeleton")), "{name}");
+    }
+}
+
+#[test]
+fn a_foot_hardly_longer_than_half_its_width_has_a_point_in_its_section() {
+    let mesh = TrueFrame {
+        nodes: vec![[0.0; 3], [0.0, 0.0, 17.0], [40.0, 0.0, 40.0], [-40.0, 0.0, 40.0]],
+        struts: vec![([0, 1], [6.5; 2]), ([1, 2], [2.5; 2]), ([1, 3], [2.5; 2])],
+        pads: vec![0, 2, 3],
+        pad: 8.0,
+    }
+    .mesh(1.0);
+    let skeleton = marched(&mesh).expect("a skeleton").skeleton;
+    let is_foot = |p: &u32| skeleton.position(*p).coords.norm() < 9.0;
+    let foot = skeleton.branches.iter().find(|b| b.points.iter().any(is_foot)).expect("a foot");
+    let [_, within @ .., _] = foot.points.as_slice() else { panic!("two ends") };
+    assert!(!within.is_empty());
+    for &p in within {
+        let radius = skeleton.points[p as usize].radius;
+        assert!((radius - 6.5).abs() < 0.5, "{radius}");
     }
 }

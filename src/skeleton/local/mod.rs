@@ -35,6 +35,7 @@ mod search;
 mod section_near;
 mod seed;
 mod simplify;
+mod stocky;
 mod trend;
 
 use self::curve::MOST_PIECES;

@@ -12,6 +12,7 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::curve::{Polyline, SWOLLEN, base_curve, is_bend, spaced};
 use super::draft::{Hub, HubKind, Run};
 use super::section_near::{Stations, section_round};
+use super::stocky::middle_of;
 use super::trend::Trend;
 use crate::mesh::Surface;
 use crate::mesh::contour::{Contour, Extent, Plane};
@@ -175,7 +176,9 @@ pub(crate) fn samples(
     step: f64,
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Vec<Sample>, SkeletonError> {
-    let Some(trend) = Trend::of(run) else { return Ok(Vec::new()) };
+    let Some(trend) = Trend::of(run) else {
+        return Ok(middle_of(surface, hubs).into_iter().collect());
+    };
     let Moved { points, radii, mut shares, curve } =
         moved(surface, run, &trend, hubs, step, &mut Known::default(), watch)?;
     let last = points.len() - 1;
