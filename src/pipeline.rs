@@ -17,7 +17,7 @@ use crate::mesh::{MeshError, Surface, prepare_watched};
 use crate::observer::{Observer, Stage};
 use crate::section::Catalogue;
 use crate::section::catalogue::CatalogueError;
-use crate::section::matching::MatchError;
+use crate::section::matching::{MatchError, ProfileChoice};
 use crate::skeleton::params::OutOfRange;
 use crate::skeleton::{self, Marched, Skeleton, SkeletonError, SkeletonParams};
 use crate::wording::{counted, figures};
@@ -198,9 +198,13 @@ pub fn run(
     Ok(Outcome { surface, skeleton, sections, frame, joints, findings })
 }
 
-/// The built-in profiles and those of the user.
+/// The built-in profiles, where they are asked for: their properties take longer than many a frame.
+/// And those of the user, whose faults are told in any case.
 fn catalogue(settings: &Settings) -> Result<Catalogue, PipelineError> {
-    let mut all = Catalogue::builtin().clone();
+    let mut all = match settings.profiles.choice {
+        ProfileChoice::Catalogue(_) => Catalogue::builtin().clone(),
+        _ => Catalogue::default(),
+    };
     for file in &settings.catalogue_files {
         all.extend(Catalogue::read(file)?);
     }

@@ -10,6 +10,8 @@
 //! The samples follow an even sequence, not a random one, so that the numbers are the same on every
 //! run and true to about a thousandth.
 
+use std::borrow::Cow;
+
 use nalgebra::{Point2, Point3};
 
 use super::beam_section::BeamAxes;
@@ -76,6 +78,7 @@ struct Solid {
     length: f64,
     /// Part of the length and region, ascending.
     stations: Vec<(f64, Contours)>,
+    is_constant: bool,
     /// Farthest corner from the axis, mm.
     reach: f64,
     middle: Point3<f64>,
@@ -92,6 +95,7 @@ impl Solid {
             length: beam.length,
             reach: corners.map(|p| p.coords.norm()).fold(0.0, f64::max),
             middle: nalgebra::center(&start, &end),
+            is_constant: stations.windows(2).all(|w| w[0].1 == w[1].1),
             stations,
         }
     }
@@ -111,24 +115,23 @@ impl Solid {
     }
 
     /// The region at a part of the length: corner by corner between two stations.
-    fn region(&self, t: f64) -> Contours {
+    fn region(&self, t: f64) -> Cow<'_, Contours> {
+        if self.is_constant {
+            return Cow::Borrowed(&self.stations[0].1);
+        }
         let next = self.stations.partition_point(|s| s.0 < t).clamp(1, self.stations.len() - 1);
         let ((from, a), (to, b)) = (&self.stations[next - 1], &self.stations[next]);
         let part = ((t - from) / (to - from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         if a == b || part == 0.0 || a.outer.len() != b.outer.len() {
-            return a.clone();
+            return Cow::Borrowed(a);
         }
         let mix = |a: &Vec<Point2<f64>>, b: &Vec<Point2<f64>>| {
             a.iter().zip(b).map(|(p, q)| p + (q - p) * part).collect()
         };
-        Contours {
+        Cow::Owned(Contours {
             outer: mix(&a.outer, &b.outer),
             holes: a.holes.iter().zip(&b.holes).map(|(a, b)| mix(a, b)).collect(),
-        }
-    }
-
-    fn is_constant(&self) -> bool {
-        self.stations.windows(2).all(|w| w[0].1 == w[1].1)
+        })
     }
 
     fn contains(&self, p: &Point3<f64>) -> bool {
@@ -137,9 +140,6 @@ impl Solid {
         let across = self.axes.across(&from_start);
         if !(0.0..=self.length).contains(&along) || across.coords.norm() > self.reach {
             return false;
-        }
-        if self.is_constant() {
-            return fills(&self.stations[0].1, &across);
         }
         fills(&self.region(along / self.length), &across)
     }

@@ -123,11 +123,13 @@ impl Piece {
             f(p, d)
         };
         let mut roots = Vec::new();
+        let mut was_negative = value(part(0)[0]) < 0.0;
         for i in 0..ROOT_PARTS {
-            let ends = part(i);
-            if (value(ends[0]) < 0.0) != (value(ends[1]) < 0.0) {
-                roots.push(bisect(ends, value));
+            let is_negative = value(part(i)[1]) < 0.0;
+            if is_negative != was_negative {
+                roots.push(bisect(part(i), value));
             }
+            was_negative = is_negative;
         }
         roots
     }

@@ -46,7 +46,8 @@ impl Fan {
         count: usize,
     ) -> Self {
         let directions = directions(turn, count);
-        let mut all = vec![Vec::new(); count];
+        // Most rays cross a region once.
+        let mut all: Vec<Vec<f64>> = (0..count).map(|_| Vec::with_capacity(1)).collect();
         for polygon in polygons {
             for (p, q) in sides(polygon) {
                 let (p, q) = (p - centre, q - centre);

@@ -22,9 +22,17 @@ impl Freeform {
             .collect();
         let n = corners.len();
         let side = |i: usize| [corners[i], corners[(i + 1) % n]];
-        (0..n).all(|i| {
-            let last = if i == 0 { n - 1 } else { n };
-            (i + 2..last).all(|j| !meet(&side(i), &side(j)))
+        let reach = |i: usize| {
+            let [a, b] = side(i);
+            [a.x.min(b.x), a.x.max(b.x)]
+        };
+        // From left to right a side can only meet those that begin before it ends.
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|&i, &j| reach(i)[0].total_cmp(&reach(j)[0]));
+        let are_neighbours = |i: usize, j: usize| (i + 1) % n == j || (j + 1) % n == i;
+        order.iter().enumerate().all(|(k, &i)| {
+            let beside = order[k + 1..].iter().take_while(|&&j| reach(j)[0] <= reach(i)[1]);
+            beside.filter(|&&j| !are_neighbours(i, j)).all(|&j| !meet(&side(i), &side(j)))
         })
     }
 }
