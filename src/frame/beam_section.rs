@@ -1,76 +1,12 @@
 //! What the sections along one straight beam say: mean and end values, taken away from junctions.
 
-use nalgebra::{Point2, Point3, Unit, Vector3};
+use nalgebra::{Point2, Point3};
 
+use super::beam_axes::BeamAxes;
+use super::beam_station::BeamStation;
 use super::moments::Moments;
 use super::robust::{line, twist, weigh};
 use super::section_at::Section;
-
-/// The axes of a beam: x along it, y and z across.
-///
-/// ```text
-///        z ▲  ╱ x  from the first node to the second
-///          │ ╱
-///          ●────► y
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BeamAxes {
-    /// Along the beam.
-    pub x: Unit<Vector3<f64>>,
-    /// Across.
-    pub y: Unit<Vector3<f64>>,
-    /// Across; x × y.
-    pub z: Unit<Vector3<f64>>,
-}
-
-impl BeamAxes {
-    /// Axes along `x`, with `y` turned to nothing in particular.
-    pub fn along(x: Unit<Vector3<f64>>) -> Self {
-        let mut across = Vector3::zeros();
-        across[x.iamin()] = 1.0;
-        let y = Unit::new_normalize(x.cross(&across));
-        Self { x, y, z: Unit::new_normalize(x.cross(&y)) }
-    }
-
-    /// The axes turned about x by `angle`, rad.
-    pub fn rolled(&self, angle: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
-        Self {
-            x: self.x,
-            y: Unit::new_normalize(*self.y * cos + *self.z * sin),
-            z: Unit::new_normalize(*self.z * cos - *self.y * sin),
-        }
-    }
-
-    /// Coordinates y, z of a vector.
-    pub fn across(&self, v: &Vector3<f64>) -> Point2<f64> {
-        Point2::new(v.dot(&self.y), v.dot(&self.z))
-    }
-}
-
-/// A section of the mesh seen along a beam.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BeamStation {
-    /// The skeletal point it was measured at.
-    pub point: u32,
-    /// Part 0..1 of the beam's length.
-    pub at: f64,
-    /// Contour in y, z about its centroid, mm.
-    pub contour: Vec<Point2<f64>>,
-    /// Its moments.
-    pub moments: Moments,
-    /// Distance of the centroid from the axis, mm.
-    pub off_axis: f64,
-    /// 1 for a section like its neighbours, towards 0 for one swollen by a junction.
-    pub weight: f64,
-}
-
-impl BeamStation {
-    /// Whether it is so much larger or smaller than its neighbours that it hardly counts.
-    pub fn is_outlier(&self) -> bool {
-        self.weight < 0.5
-    }
-}
 
 /// Sections along a beam and what they say together.
 #[derive(Clone, Debug, Default, PartialEq)]

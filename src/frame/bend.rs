@@ -14,7 +14,7 @@ use nalgebra::Point3;
 use rustc_hash::FxHashMap;
 
 use super::NodeKind;
-use super::beam_section::BeamStation;
+use super::beam_station::BeamStation;
 use super::depth::Depths;
 use super::deviation::worst;
 use super::pieces::{Making, Piece};

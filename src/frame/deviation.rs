@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::beam_section::BeamStation;
+use super::beam_station::BeamStation;
 use super::params::FrameParams;
 use super::pieces::{Making, Piece};
 use crate::finding::{Finding, FindingKind};

@@ -2,7 +2,7 @@
 
 use nalgebra::Rotation2;
 
-use super::beam_section::BeamAxes;
+use super::beam_axes::BeamAxes;
 use super::direction;
 use super::measured::mean_contour;
 use super::pieces::{Making, Piece};

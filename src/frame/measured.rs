@@ -2,7 +2,8 @@
 
 use nalgebra::{Point2, Rotation2};
 
-use super::beam_section::{BeamSection, BeamStation};
+use super::beam_section::BeamSection;
+use super::beam_station::BeamStation;
 use crate::section::MatchTarget;
 use crate::section::freeform::average_outline;
 use crate::section::matching::{facets, worn};

@@ -18,7 +18,9 @@
 //! | 8 | mean and end values of the sections along each beam that are its own | [`beam_section`], `own`, `measured` |
 //! | 9 | a profile for every beam | [`profiles`] |
 
+pub mod beam_axes;
 pub mod beam_section;
+pub mod beam_station;
 mod bend;
 mod continuous;
 mod depth;
@@ -43,7 +45,9 @@ mod solve;
 mod straighten;
 pub mod volume;
 
-pub use beam_section::{BeamAxes, BeamSection, BeamStation};
+pub use beam_axes::BeamAxes;
+pub use beam_section::BeamSection;
+pub use beam_station::BeamStation;
 pub use moments::Moments;
 pub(crate) use normalize::normalize_watched;
 pub use normalize::{Normalized, normalize};

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::beam_section::{BeamAxes, BeamSection};
+use super::beam_axes::BeamAxes;
+use super::beam_section::BeamSection;
 use super::lay_anew::lay_anew;
 use super::measured::measured;
 use super::params::FrameParams;

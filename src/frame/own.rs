@@ -1,6 +1,8 @@
 //! Which sections along a piece tell about it: next to a junction they hold parts of other branches.
 
-use super::beam_section::{BeamAxes, BeamSection, BeamStation};
+use super::beam_axes::BeamAxes;
+use super::beam_section::BeamSection;
+use super::beam_station::BeamStation;
 use super::pieces::{Making, Piece};
 use super::section_at::Section;
 use super::{NodeKind, direction};

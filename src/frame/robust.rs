@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::beam_section::BeamStation;
+use super::beam_station::BeamStation;
 
 /// Departure of the area from its straight line that halves the weight of a section: some times
 /// the median departure, within bounds. Fillets add tenths to a clean strut, the steps of voxel

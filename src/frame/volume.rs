@@ -14,7 +14,7 @@ use std::borrow::Cow;
 
 use nalgebra::{Point2, Point3};
 
-use super::beam_section::BeamAxes;
+use super::beam_axes::BeamAxes;
 use super::{Beam, BeamShape, Frame};
 use crate::mesh::{Shadow, TriangleTree};
 use crate::section::properties::{Contours, signed_area};
