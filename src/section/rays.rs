@@ -33,33 +33,77 @@ fn crossing(p: &Vector2<f64>, q: &Vector2<f64>, direction: &Vector2<f64>) -> Opt
     (r > 0.0).then_some(r)
 }
 
-/// What a fan of evenly spaced rays sees of a region: the crossings of each ray, ascending.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Fan(Vec<Vec<f64>>);
+/// Evenly spaced rays from one point.
+pub(crate) struct Rays {
+    turn: f64,
+    directions: Vec<Vector2<f64>>,
+}
 
-impl Fan {
-    /// Casts `count` rays from `centre`, the first along the first coordinate turned by `turn`.
+/// A corner of a polygon: from the centre of the rays, and its place among them.
+type Corner = (Vector2<f64>, f64);
+
+impl Rays {
+    /// `count` rays, the first along the first coordinate turned by `turn`.
+    pub(crate) fn new(turn: f64, count: usize) -> Self {
+        let direction = |i: usize| {
+            let (sin, cos) = (turn + TAU * i as f64 / count as f64).sin_cos();
+            Vector2::new(cos, sin)
+        };
+        Self { turn, directions: (0..count).map(direction).collect() }
+    }
+
+    /// Their unit vectors.
+    pub(crate) fn directions(&self) -> &[Vector2<f64>] {
+        &self.directions
+    }
+
+    /// Casts them from `centre` through the region between polygons.
     pub(crate) fn cast<'p>(
+        &self,
         polygons: impl IntoIterator<Item = &'p Vec<Point2<f64>>>,
         centre: Point2<f64>,
-        turn: f64,
-        count: usize,
-    ) -> Self {
-        let directions = directions(turn, count);
+    ) -> Fan {
         // Most rays cross a region once.
-        let mut all: Vec<Vec<f64>> = (0..count).map(|_| Vec::with_capacity(1)).collect();
+        let mut all: Vec<Vec<f64>> =
+            self.directions.iter().map(|_| Vec::with_capacity(1)).collect();
         for polygon in polygons {
-            for (p, q) in sides(polygon) {
-                let (p, q) = (p - centre, q - centre);
-                for i in rays_near(&p, &q, turn, count) {
-                    all[i].extend(crossing(&p, &q, &directions[i]));
+            let corners: Vec<Corner> = polygon.iter().map(|p| self.corner(p - centre)).collect();
+            for (p, q) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                for i in self.near(p, q) {
+                    all[i].extend(crossing(&p.0, &q.0, &self.directions[i]));
                 }
             }
         }
         all.iter_mut().for_each(|found| found.sort_by(f64::total_cmp));
-        Self(all)
+        Fan(all)
     }
 
+    fn corner(&self, at: Vector2<f64>) -> Corner {
+        (at, (at.y.atan2(at.x) - self.turn) / TAU * self.directions.len() as f64)
+    }
+
+    /// The rays that may cross a side: those between its ends, and one more on either side for
+    /// rounding.
+    fn near(&self, &(_, from): &Corner, &(_, to): &Corner) -> impl Iterator<Item = usize> + use<> {
+        let count = self.directions.len();
+        let n = count as f64;
+        // The side is seen the shorter way round.
+        let span = to - from - ((to - from) / n).round() * n;
+        let first = from.min(from + span).floor() - 1.0;
+        let rays = span.abs().ceil() + 4.0;
+        // One that passes the centre closely may be seen either way round.
+        let is_clear = span.abs() < 0.5 * n - 2.0 && rays < n;
+        let (first, rays) =
+            if is_clear { (first.rem_euclid(n), rays as usize) } else { (0.0, count) };
+        (0..rays).map(move |i| (first as usize + i) % count)
+    }
+}
+
+/// What evenly spaced rays see of a region: the crossings of each ray, ascending.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Fan(Vec<Vec<f64>>);
+
+impl Fan {
     /// Rays of the fan.
     pub(crate) fn len(&self) -> usize {
         self.0.len()
@@ -79,36 +123,6 @@ impl Fan {
             (0..n).map(|i| ray_difference(&self.0[i], &other.0[(i + n - shift % n) % n])).sum();
         0.5 * sum * TAU / n as f64
     }
-}
-
-/// Unit vectors of `count` evenly spaced rays, the first along the first coordinate turned by `turn`.
-pub(crate) fn directions(turn: f64, count: usize) -> Vec<Vector2<f64>> {
-    let direction = |i: usize| {
-        let (sin, cos) = (turn + TAU * i as f64 / count as f64).sin_cos();
-        Vector2::new(cos, sin)
-    };
-    (0..count).map(direction).collect()
-}
-
-/// The rays of a fan that may cross a side `p q`, seen from its centre: those between the directions
-/// of its ends, and one more on either side for rounding.
-fn rays_near(
-    p: &Vector2<f64>,
-    q: &Vector2<f64>,
-    turn: f64,
-    count: usize,
-) -> impl Iterator<Item = usize> + use<> {
-    let n = count as f64;
-    let place = |v: &Vector2<f64>| (v.y.atan2(v.x) - turn) / TAU * n;
-    let (from, to) = (place(p), place(q));
-    // The side is seen the shorter way round.
-    let span = to - from - ((to - from) / n).round() * n;
-    let first = (from.min(from + span)).floor() - 1.0;
-    let rays = span.abs().ceil() + 4.0;
-    // One that passes the centre closely may be seen either way round.
-    let is_clear = span.abs() < 0.5 * n - 2.0 && rays < n;
-    let (first, rays) = if is_clear { (first.rem_euclid(n), rays as usize) } else { (0.0, count) };
-    (0..rays).map(move |i| (first as usize + i) % count)
 }
 
 /// ∫ |1_a − 1_b| d(r²) along one ray.
@@ -150,16 +164,18 @@ mod tests {
 
     #[test]
     fn circles_differ_by_the_ring_between_them() {
-        let [a, b] = [2.0, 3.0].map(|r| Fan::cast(circle(r).polygons(), Point2::origin(), 0.0, 90));
+        let rays = Rays::new(0.0, 90);
+        let [a, b] = [2.0, 3.0].map(|r| rays.cast(circle(r).polygons(), Point2::origin()));
         assert!((a.difference(&b, 0) - 5.0 * PI).abs() < 0.01);
         assert!(a.difference(&a, 7) < 0.01);
     }
 
     #[test]
     fn tube_differs_from_its_bar_by_the_bore() {
+        let rays = Rays::new(0.0, 90);
         let tube = Contours { outer: circle(3.0).outer, holes: vec![circle(2.0).outer] };
-        let tube = Fan::cast(tube.polygons(), Point2::origin(), 0.0, 90);
-        let bar = Fan::cast(circle(3.0).polygons(), Point2::origin(), 0.0, 90);
+        let tube = rays.cast(tube.polygons(), Point2::origin());
+        let bar = rays.cast(circle(3.0).polygons(), Point2::origin());
         assert!((tube.difference(&bar, 0) - 4.0 * PI).abs() < 0.01);
     }
 
@@ -168,7 +184,8 @@ mod tests {
         // A star far off the centre of the fan, one round it, and one whose side runs through it.
         let star = |centre: Point2<f64>, size: f64| -> Vec<Point2<f64>> {
             let corner = |i: usize| size * if i.is_multiple_of(2) { 1.0 } else { 0.3 };
-            let at = directions(0.2, 14).into_iter().enumerate();
+            let rays = Rays::new(0.2, 14);
+            let at = rays.directions().iter().enumerate();
             at.map(|(i, direction)| centre + direction * corner(i)).collect()
         };
         let origin = Point2::origin();
@@ -176,9 +193,10 @@ mod tests {
         let square = square.map(|(x, y)| Point2::new(x, y)).to_vec();
         for polygon in [star(origin, 5.0), star(Point2::new(7.0, -3.0), 4.0), square] {
             for (turn, count) in [(0.0, 7), (-2.9, 192), (11.0, 360)] {
-                let fan = Fan::cast([&polygon], origin, turn, count);
-                for (found, direction) in fan.rays().iter().zip(directions(turn, count)) {
-                    assert_eq!(*found, crossings(&polygon, origin, direction), "{turn} {count}");
+                let rays = Rays::new(turn, count);
+                let fan = rays.cast([&polygon], origin);
+                for (found, direction) in fan.rays().iter().zip(rays.directions()) {
+                    assert_eq!(*found, crossings(&polygon, origin, *direction), "{turn} {count}");
                 }
             }
         }

@@ -18,7 +18,7 @@ use super::Freeform;
 use crate::section::error::SectionError;
 use crate::section::outline::Outline;
 use crate::section::properties::{Contours, Moments, sides, signed_area};
-use crate::section::rays::{Fan, crossings, directions};
+use crate::section::rays::{Fan, Rays, crossings};
 
 /// Why contours have no mean outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -96,10 +96,10 @@ pub fn average_outline(
     }
     let samples = SAMPLES_PER_POINT * points;
     let curve = |mean: Vec<Point2<f64>>| smooth(&mean, points, &goal);
-    let fan = |contour: &Vec<_>| Fan::cast([contour], Point2::origin(), 0.0, samples);
-    let fans: Vec<Fan> = centred.iter().map(fan).collect();
-    let mean = by_rays(&fans, samples).unwrap_or_else(|| by_way_around(&centred, samples, &goal));
-    curve(mean).or_else(|| curve(by_farthest(&fans, samples))).ok_or(AverageError::NoSimpleOutline)
+    let rays = Rays::new(0.0, samples);
+    let fans: Vec<Fan> = centred.iter().map(|c| rays.cast([c], Point2::origin())).collect();
+    let mean = by_rays(&fans, &rays).unwrap_or_else(|| by_way_around(&centred, samples, &goal));
+    curve(mean).or_else(|| curve(by_farthest(&fans, &rays))).ok_or(AverageError::NoSimpleOutline)
 }
 
 /// The spline along a mean outline with the moments of `goal`; `None` if it crosses itself.
@@ -120,19 +120,19 @@ fn about_centroid(contour: &[Point2<f64>], centroid: Point2<f64>) -> Vec<Point2<
 }
 
 /// Root mean square of the radii over even directions; `None` if a ray meets a contour twice.
-fn by_rays(fans: &[Fan], samples: usize) -> Option<Vec<Point2<f64>>> {
+fn by_rays(fans: &[Fan], rays: &Rays) -> Option<Vec<Point2<f64>>> {
     let is_single = |fan: &Fan| fan.rays().iter().all(|crossings| crossings.len() == 1);
-    fans.iter().all(is_single).then(|| by_farthest(fans, samples))
+    fans.iter().all(is_single).then(|| by_farthest(fans, rays))
 }
 
 /// Root mean square of the farthest radii over even directions: an outline without folds.
-fn by_farthest(fans: &[Fan], samples: usize) -> Vec<Point2<f64>> {
-    let point = |(i, direction): (usize, Vector2<f64>)| {
+fn by_farthest(fans: &[Fan], rays: &Rays) -> Vec<Point2<f64>> {
+    let point = |(i, direction): (usize, &Vector2<f64>)| {
         let farthest = |fan: &Fan| fan.rays()[i].last().copied().unwrap_or(0.0);
         let squares: f64 = fans.iter().map(|fan| farthest(fan).powi(2)).sum();
         (direction * (squares / fans.len() as f64).sqrt()).into()
     };
-    directions(0.0, samples).into_iter().enumerate().map(point).collect()
+    rays.directions().iter().enumerate().map(point).collect()
 }
 
 /// Mean of the points at equal parts of the way around, from where axis 1 leaves each contour.

@@ -9,7 +9,7 @@ use super::{MatchError, MatchErrors, MatchMode, MatchTarget, Matched};
 use crate::section::freeform::average_outline;
 use crate::section::profile::{Profile, Shape};
 use crate::section::properties::{Contours, SectionProperties};
-use crate::section::rays::Fan;
+use crate::section::rays::{Fan, Rays};
 
 /// I_1/I_2 below which a section has no strong axis to speak of, and a profile with corners is
 /// turned by its outline instead. A square bar off by 3 % in one side has 1.06.
@@ -76,13 +76,13 @@ impl Outlines {
         let centre = measured.moments()?.centroid();
         Ok(Self {
             profile: Contours::of_region(&profile.region(), CORNERS_PER_QUARTER),
-            measured: Fan::cast(measured.polygons(), centre, 0.0, RAYS),
+            measured: Rays::new(0.0, RAYS).cast(measured.polygons(), centre),
         })
     }
 
     /// The profile turned by an angle, as a fan.
     fn fan(&self, roll: f64) -> Fan {
-        Fan::cast(self.profile.polygons(), Point2::origin(), -roll, RAYS)
+        Rays::new(-roll, RAYS).cast(self.profile.polygons(), Point2::origin())
     }
 
     /// The roll among the possible ones that leaves least uncovered, and how much that is, mm².
