@@ -29,7 +29,7 @@ pub(super) struct Filled {
     /// Number of pieces.
     pub(super) pieces: u32,
     /// Volume, mm³.
-    volume: f64,
+    pub(super) volume: f64,
     /// What of it lies outside of the material, mm³.
     outside: f64,
 }
@@ -62,6 +62,15 @@ impl Filled {
             sum.add(making, piece, shadow, most);
         }
         sum
+    }
+
+    /// Adds what another branch fills.
+    pub(super) fn and(&self, other: &Self) -> Self {
+        Self {
+            pieces: self.pieces + other.pieces,
+            volume: self.volume + other.volume,
+            outside: self.outside + other.outside,
+        }
     }
 
     /// Adds a piece; one without sections fills nothing that is known.

@@ -19,6 +19,18 @@ const FIRMEST: f64 = 1e2;
 /// lie in the surface.
 const ENDS: f64 = 0.01;
 
+impl Making<'_> {
+    /// Holds all junctions where the skeleton has them: none is drawn into an interface section next
+    /// to it, where the axes of its branches would meet.
+    pub(super) fn hold_junctions(&mut self) {
+        for (node, anchor) in self.nodes.iter().zip(&mut self.anchors) {
+            if node.kind == NodeKind::Junction {
+                anchor.hold = FIRMEST;
+            }
+        }
+    }
+}
+
 /// Holds nodes that left the material more firmly; whether there was any.
 pub(super) fn hold_nodes_inside(making: &mut Making<'_>, tree: &TriangleTree) -> bool {
     let mut pieces_at: Vec<Vec<&Piece>> = vec![Vec::new(); making.nodes.len()];
@@ -61,4 +73,46 @@ pub(super) fn leaves_material(making: &Making<'_>, piece: &Piece, tree: &Triangl
     let [a, b] = making.axis(piece);
     let (from, to) = (a + (b - a) * ENDS, b - (b - a) * ENDS);
     a != b && (!tree.contains(&from) || tree.is_crossed_by(&from, &to))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Point3, Vector3};
+
+    use super::*;
+    use crate::frame::params::FrameParams;
+    use crate::frame::section_at::Section;
+    use crate::mesh::contour::Plane;
+    use crate::skeleton::{Branch, PointKind, SkeletalPoint, Skeleton};
+
+    #[test]
+    fn held_junctions_stay_where_the_skeleton_has_them() {
+        // Square sections across z whose centroids lie beside the skeleton.
+        let at = |i: u32| Point3::new(0.0, 0.0, 2.0 * f64::from(i));
+        let kind = |i: u32| if i == 8 { PointKind::Junction } else { PointKind::Branch };
+        let points = (0..9).map(|i| SkeletalPoint { position: at(i), radius: 1.0, kind: kind(i) });
+        let skeleton = Skeleton {
+            points: points.collect(),
+            branches: vec![Branch { points: (0..9).collect() }],
+        };
+        let section = |i: u32| {
+            let centroid = at(i) + Vector3::new(0.4, 0.0, 0.0);
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            let contour = corners.map(|[x, y]| centroid + Vector3::new(x, y, 0.0)).to_vec();
+            let plane = Plane::new(at(i), Vector3::z_axis());
+            (1..8).contains(&i).then_some(Section { point: i, plane, contour, area: 4.0, centroid })
+        };
+        let sections: Vec<Option<Section>> = (0..9).map(section).collect();
+        let off = |is_held: bool| {
+            let mut making = Making::new(&skeleton, &sections, &[], &FrameParams::default());
+            if is_held {
+                making.hold_junctions();
+            }
+            making.solve();
+            let junction = making.nodes.iter().find(|n| n.kind == NodeKind::Junction);
+            (junction.expect("a junction").position - at(8)).norm()
+        };
+        assert!((off(false) - 0.4).abs() < 0.01, "{}", off(false));
+        assert!(off(true) < 0.02, "{}", off(true));
+    }
 }

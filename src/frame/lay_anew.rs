@@ -76,6 +76,16 @@ fn cost(filled: &Filled) -> f64 {
     filled.part_outside() + PRICE * f64::from(filled.pieces)
 }
 
+/// What a frame fills, and what its branches cost together, each as much as its volume.
+pub(super) fn frame_cost(making: &Making<'_>, surface: &Surface) -> (Filled, f64) {
+    let branches = 0..making.skeleton.branches.len();
+    let shadow = Shadow::new(&surface.tree);
+    let filled = branches.map(|branch| Filled::at_a_glance(making, branch, &shadow));
+    filled.fold((Filled::default(), 0.0), |(sum, costs), branch| {
+        (sum.and(&branch), costs + cost(&branch) * branch.volume)
+    })
+}
+
 /// Lays branches anew: those that stick out too far, and straight ones with a corner that only
 /// leads to the middle of an interface section.
 ///

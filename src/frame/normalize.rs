@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::beam_axes::BeamAxes;
 use super::beam_section::BeamSection;
-use super::lay_anew::lay_anew;
+use super::lay_anew::{frame_cost, lay_anew};
 use super::measured::measured;
 use super::params::FrameParams;
 use super::pieces::{Making, Piece};
@@ -55,9 +55,16 @@ pub(crate) fn normalize_watched(
     observer: &mut impl Observer,
 ) -> ControlFlow<(), Normalized> {
     let mut making = Making::new(skeleton, sections, &surface.interfaces, params);
-    let mut findings = Vec::new();
-    settle(&mut making, surface, &mut findings, observer)?;
-    lay_anew(&mut making, surface, |making| settle(making, surface, &mut Vec::new(), observer))?;
+    let mut findings = lay(&mut making, surface, observer)?;
+    let (filled, cost) = frame_cost(&making, surface);
+    if filled.sticks_out() {
+        let mut held = Making::new(skeleton, sections, &surface.interfaces, params);
+        held.hold_junctions();
+        let held_findings = lay(&mut held, surface, observer)?;
+        if frame_cost(&held, surface).1 < cost {
+            (making, findings) = (held, held_findings);
+        }
+    }
     making.drop_closed_pieces(&mut findings);
     if params.continuous && continuous::join(&mut making, params) {
         settle_nodes(&mut making, surface, observer)?;
@@ -70,6 +77,18 @@ pub(crate) fn normalize_watched(
         beams.push(beam(&making, piece, surface));
     }
     ControlFlow::Continue(Normalized { frame: Frame { nodes: making.nodes, beams }, findings })
+}
+
+/// Lays the pieces along their branches; what is odd about that.
+fn lay(
+    making: &mut Making<'_>,
+    surface: &Surface,
+    observer: &mut impl Observer,
+) -> ControlFlow<(), Vec<Finding>> {
+    let mut findings = Vec::new();
+    settle(making, surface, &mut findings, observer)?;
+    lay_anew(making, surface, |making| settle(making, surface, &mut Vec::new(), observer))?;
+    ControlFlow::Continue(findings)
 }
 
 /// Solves until every node stays in the material, no piece bends and no two nodes are one; then
