@@ -13,6 +13,7 @@ pub mod id;
 pub mod indexed;
 pub mod interface_section;
 pub mod label;
+mod near;
 mod order;
 mod orient;
 pub mod prepare;

@@ -27,8 +27,9 @@ use super::half_edge::HalfEdgeMesh;
 use super::indexed::{IndexedMesh, weld};
 use super::interface_section::{InterfaceSection, interface_sections};
 use super::label::{LabelCounts, LabelParams, extent, non_design_faces};
+use super::near::merge_near_border_points;
 use super::order::renumbered;
-use super::orient::{NO_TWIN, Pairing, pair_and_orient};
+use super::orient::{NO_TWIN, pair_and_orient};
 use super::set::Labels;
 use super::shell::{Shell, Shells};
 use super::triangle_tree::TriangleTree;
@@ -199,45 +200,6 @@ fn make_closed(soup: &mut IndexedMesh, report: &mut MeshReport) -> Result<Vec<u3
     report.split_vertices = split_shared_vertices(soup, &twins);
     drop_unused_points(soup);
     Ok(twins)
-}
-
-/// Border points nearer to each other than this part of the shortest border edge are one point.
-/// Rounded coordinates are far nearer, the corners of the smallest triangle just a whole edge away.
-const NEAR: f64 = 0.1;
-
-/// Merges border points that lie within [`NEAR`] of each other; the number merged.
-fn merge_near_border_points(soup: &mut IndexedMesh, pairing: &Pairing) -> usize {
-    let at = |v: u32| soup.positions[v as usize];
-    let mut on_border: Vec<u32> = Vec::new();
-    let mut shortest = f64::INFINITY;
-    for h in (0..pairing.twins.len() as u32).filter(|&h| pairing.twins[h as usize] == NO_TWIN) {
-        let (a, b) = super::edges::ends(&soup.triangles, h);
-        on_border.extend([a, b]);
-        shortest = shortest.min((at(a) - at(b)).norm());
-    }
-    on_border.sort_unstable();
-    on_border.dedup();
-    // Rounding to single precision bounds what "near" may mean from below.
-    let near = NEAR * shortest.min(1e-4 * extent(&soup.positions));
-    on_border.sort_by(|&v, &w| at(v).x.total_cmp(&at(w).x).then(v.cmp(&w)));
-    let mut of_point: Vec<u32> = (0..soup.positions.len() as u32).collect();
-    let mut merged = 0;
-    for (i, &v) in on_border.iter().enumerate() {
-        if of_point[v as usize] != v {
-            continue;
-        }
-        for &w in on_border[i + 1..].iter().take_while(|&&w| at(w).x - at(v).x <= near) {
-            if of_point[w as usize] == w && (at(w) - at(v)).norm() <= near {
-                of_point[w as usize] = v;
-                merged += 1;
-            }
-        }
-    }
-    if merged > 0 {
-        let positions = soup.positions.clone();
-        soup.merge_points(&of_point, positions);
-    }
-    merged
 }
 
 /// Step 6: turns every body outwards and drops the cavities.
