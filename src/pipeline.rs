@@ -187,10 +187,13 @@ pub fn run(
     let Normalized { mut frame, findings: odd } = unless_stopped(watched)?;
     findings.extend(odd);
     step(observer, Stage::Frame, 0)?;
-    let no_profile = |source| PipelineError::Match { path: path.to_owned(), source };
-    let watched =
+    let matched =
         frame::match_profiles_watched(&mut frame, &settings.profiles, &catalogue, observer);
-    findings.extend(unless_stopped(watched)?.map_err(no_profile)?);
+    findings.extend(matched.map_err(|source| match source {
+        MatchError::Cancelled => PipelineError::Cancelled,
+        source => PipelineError::Match { path: path.to_owned(), source },
+    })?);
+    step(observer, Stage::Frame, 0)?;
     let (joints, odd) = joints(&frame, &surface.interfaces, settings.joints);
     findings.extend(odd);
     step(observer, Stage::Frame, 1)?;

@@ -56,7 +56,7 @@ fn into_folder(
         let input = job.input().display().to_string();
         let end = job.run(global, progress);
         if interrupted() {
-            return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
+            return Err(Failure::interrupted());
         }
         if let Err(Failure { exit, message }) = end {
             progress.finish();

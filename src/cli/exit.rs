@@ -17,15 +17,22 @@ pub(crate) enum Exit {
     Interrupted,
 }
 
+impl Exit {
+    /// The code the program ends with.
+    pub(crate) const fn code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::Input => 1,
+            Self::Usage => 2,
+            Self::Breach => 3,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
-        Self::from(match exit {
-            Exit::Done => 0,
-            Exit::Input => 1,
-            Exit::Usage => 2,
-            Exit::Breach => 3,
-            Exit::Interrupted => 130,
-        })
+        exit.code().into()
     }
 }
 
@@ -39,6 +46,10 @@ pub(crate) struct Failure {
 impl Failure {
     pub(crate) fn input(message: impl ToString) -> Self {
         Self { exit: Exit::Input, message: message.to_string() }
+    }
+
+    pub(crate) fn interrupted() -> Self {
+        Self { exit: Exit::Interrupted, message: "interrupted".into() }
     }
 
     pub(crate) fn usage(message: impl ToString) -> Self {

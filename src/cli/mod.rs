@@ -57,6 +57,8 @@ pub(crate) fn main() -> ExitCode {
     };
     progress.finish();
     ended(end.map_err(|failure| match words.placed(&failure.message) {
+        // Whatever did not come to its end then.
+        _ if progress::interrupted() => Failure::interrupted(),
         Some(message) if failure.exit == Exit::Usage => Failure { message, ..failure },
         _ => failure,
     }))
@@ -82,9 +84,14 @@ fn not_parsed(error: &clap::Error, words: &Words) -> Result<Exit, Failure> {
 
 fn ended(end: Result<Exit, Failure>) -> ExitCode {
     match end {
-        Ok(exit) => exit.into(),
+        Ok(exit) => {
+            progress::may_tell_the_end();
+            exit.into()
+        }
         Err(Failure { exit, message }) => {
-            show::error(&message);
+            if progress::may_tell_the_end() {
+                show::error(&message);
+            }
             exit.into()
         }
     }

@@ -1,22 +1,54 @@
 //! Progress on standard error, and the wish to stop.
+//!
+//! Ctrl-C sets a mark that the work asks for between its steps. What is at work where nothing asks is
+//! ended from outside after [`PATIENCE`], and no temporary file is left.
 
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use beamwright::observer::{Observer, Stage};
+use beamwright::output::OutputFiles;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::args::{GlobalArgs, ProgressStyle as How};
+use super::exit::Failure;
 
 /// Set by Ctrl-C.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Lets Ctrl-C end the run between two steps, so that no half-written file is left.
+/// Set by whoever tells how the run ends.
+static IS_TOLD: AtomicBool = AtomicBool::new(false);
+
+/// The bar on the terminal, if there is one.
+static BAR: OnceLock<ProgressBar> = OnceLock::new();
+
+/// How long the work may take to answer Ctrl-C; most of its steps do within a hundredth of it.
+const PATIENCE: Duration = Duration::from_millis(700);
+
+/// Lets Ctrl-C end the run without a half-written file.
 pub(crate) fn watch_for_interrupt() {
     // A second handler cannot be set in one process; the first one keeps working.
-    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::SeqCst));
+    let _ = ctrlc::set_handler(|| {
+        INTERRUPTED.store(true, Ordering::SeqCst);
+        std::thread::sleep(PATIENCE);
+        let _no_more_files = OutputFiles::stop_all();
+        if may_tell_the_end() {
+            if let Some(bar) = BAR.get() {
+                bar.finish_and_clear();
+            }
+            let Failure { exit, message } = Failure::interrupted();
+            super::show::error(&message);
+            std::process::exit(exit.code().into());
+        }
+    });
+}
+
+/// Whether nobody has told yet how the run ends; true for the first that asks.
+pub(crate) fn may_tell_the_end() -> bool {
+    !IS_TOLD.swap(true, Ordering::SeqCst)
 }
 
 /// Whether the user asked to stop.
@@ -46,7 +78,9 @@ impl Progress {
     pub(crate) fn new(args: &GlobalArgs) -> Self {
         let shown = match args.progress {
             How::Json => Shown::Json,
-            How::Auto if !args.quiet && std::io::stderr().is_terminal() => Shown::Bar(bar()),
+            How::Auto if !args.quiet && std::io::stderr().is_terminal() => {
+                Shown::Bar(BAR.get_or_init(bar).clone())
+            }
             _ => Shown::Nothing,
         };
         Self { shown, clock: args.verbose.then(Clock::default) }

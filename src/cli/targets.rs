@@ -10,7 +10,7 @@ use beamwright::skeleton_file;
 use beamwright_formats::Unit;
 
 use super::args::InputArgs;
-use super::exit::{Exit, Failure};
+use super::exit::Failure;
 use super::export::Export;
 use super::look::Looks;
 use super::outputs::OutputArgs;
@@ -172,7 +172,7 @@ fn is_one_file(_: &Path, _: &Path) -> bool {
 /// Puts files in their places, unless the user asked to stop.
 pub(crate) fn commit(files: OutputFiles, progress: &mut Progress) -> Result<(), Failure> {
     if progress.progress(Stage::Write, 0, 1).is_break() {
-        return Err(Failure { exit: Exit::Interrupted, message: "interrupted".into() });
+        return Err(Failure::interrupted());
     }
     let names: Vec<String> = files.paths().map(|p| p.display().to_string()).collect();
     files.commit().map_err(Failure::input)?;

@@ -27,12 +27,14 @@ struct Place {
     target: MatchTarget,
 }
 
-/// Shapes the beams of a group, which have one profile, along their sections.
+/// Shapes the beams of a group, which have one profile, along their sections, unless `keep_on` asks to
+/// stop.
 pub(super) fn shape(
     frame: &mut Frame,
     group: &[usize],
     params: &ProfileParams,
     catalogue: &Catalogue,
+    mut keep_on: impl FnMut() -> Result<(), MatchError>,
 ) -> Result<(), MatchError> {
     let Some(&first) = group.first() else { return Ok(()) };
     let profile = &frame.beams[first].shape.profile;
@@ -48,7 +50,10 @@ pub(super) fn shape(
         let profiles: Vec<Profile> = equal
             .targets
             .iter()
-            .map(|target| sized_as(&profile, target, params, catalogue))
+            .map(|target| {
+                keep_on()?;
+                sized_as(&profile, target, params, catalogue)
+            })
             .collect::<Result<_, _>>()?;
         for (place, &size) in places.iter().zip(&equal.group_of) {
             sized.entry(place.beam).or_default().push((place.at, profiles[size].clone()));

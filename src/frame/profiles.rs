@@ -6,8 +6,6 @@
 //! 3. With `max_profiles`, the profiles are reduced over the whole frame at least cost.
 //! 4. Tapered lofts get the same family at stations along the beam (`lofts`).
 
-use std::ops::ControlFlow;
-
 use super::params::ProfileParams;
 use super::shape::{BeamShape, Loft};
 use super::{Beam, Frame, lofts};
@@ -18,7 +16,7 @@ use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
 use crate::section::matching::{
     Equalized, MatchError, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
-    fewest_profiles, match_profile,
+    fewest_profiles_watched, match_profile,
 };
 
 /// Sections and lengths that agree within this part are meant to be equal. The two halves of a
@@ -37,8 +35,7 @@ pub fn match_profiles(
     params: &ProfileParams,
     catalogue: &Catalogue,
 ) -> Result<Vec<Finding>, MatchError> {
-    let watched = match_profiles_watched(frame, params, catalogue, &mut ());
-    watched.continue_value().unwrap_or_else(|| Ok(Vec::new()))
+    match_profiles_watched(frame, params, catalogue, &mut ())
 }
 
 /// The same, unless the observer asks to stop.
@@ -47,17 +44,19 @@ pub(crate) fn match_profiles_watched(
     params: &ProfileParams,
     catalogue: &Catalogue,
     observer: &mut impl Observer,
-) -> ControlFlow<(), Result<Vec<Finding>, MatchError>> {
+) -> Result<Vec<Finding>, MatchError> {
     let groups = groups(frame);
     let mut matched = Vec::with_capacity(groups.targets.len());
     for target in &groups.targets {
-        observer.keep_on()?;
-        match match_profile(target, &params.choice, params.mode, catalogue) {
-            Ok(found) => matched.push(found),
-            Err(fault) => return ControlFlow::Continue(Err(fault)),
-        }
+        keep_on(observer)?;
+        matched.push(match_profile(target, &params.choice, params.mode, catalogue)?);
     }
-    ControlFlow::Continue(shape_beams(frame, &groups, matched, params, catalogue))
+    shape_beams(frame, &groups, matched, params, catalogue, observer)
+}
+
+/// An error as soon as the observer asks to stop.
+fn keep_on(observer: &mut impl Observer) -> Result<(), MatchError> {
+    if observer.keep_on().is_break() { Err(MatchError::Cancelled) } else { Ok(()) }
 }
 
 /// The measured beams, as good as equal ones together.
@@ -73,15 +72,17 @@ fn shape_beams(
     mut matched: Vec<Matched>,
     params: &ProfileParams,
     catalogue: &Catalogue,
+    observer: &mut impl Observer,
 ) -> Result<Vec<Finding>, MatchError> {
     let targets: Vec<Option<MatchTarget>> =
         frame.beams.iter().map(|b| b.measured.clone()).collect();
     let measured: Vec<usize> = (0..targets.len()).filter(|&i| targets[i].is_some()).collect();
     if let Some(max) = params.max_profiles {
-        reduce(&mut matched, groups, max, params, catalogue)?;
+        reduce(&mut matched, groups, max, params, catalogue, observer)?;
     }
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); matched.len()];
     for (k, &i) in measured.iter().enumerate() {
+        keep_on(observer)?;
         let group = groups.group_of[k];
         members[group].push(i);
         let beam = &mut frame.beams[i];
@@ -92,7 +93,7 @@ fn shape_beams(
     members.iter().for_each(|group| equalize_lengths(frame, group));
     if params.loft != Loft::Constant {
         for group in &members {
-            lofts::shape(frame, group, params, catalogue)?;
+            lofts::shape(frame, group, params, catalogue, || keep_on(observer))?;
         }
     }
     for i in (0..targets.len()).filter(|&i| targets[i].is_none()) {
@@ -137,6 +138,7 @@ fn reduce(
     max: usize,
     params: &ProfileParams,
     catalogue: &Catalogue,
+    observer: &mut impl Observer,
 ) -> Result<(), MatchError> {
     let mut distinct: Vec<Profile> = Vec::new();
     for m in matched.iter() {
@@ -159,8 +161,11 @@ fn reduce(
         requirements[group].length += groups.lengths[group];
     }
     let ProfileParams { choice, mode, .. } = params;
-    let found = fewest_profiles(&requirements, &distinct, max, choice, *mode, catalogue)?;
+    let keep_on = &mut || keep_on(observer);
+    let found =
+        fewest_profiles_watched(&requirements, &distinct, max, choice, *mode, catalogue, keep_on)?;
     for (i, m) in matched.iter_mut().enumerate() {
+        keep_on()?;
         let profile = found.profiles[found.profile_of[i]].clone();
         *m = Matched::of(profile, &groups.targets[i])?;
     }

@@ -3,10 +3,15 @@
 //! Everything is written to temporary files beside the targets; only when all are complete are they
 //! renamed over them. What was there is kept aside until the last is in its place: where one cannot
 //! be renamed, those before it are taken back.
+//!
+//! A program that has to end at once leaves no temporary file behind: all of them are noted, and
+//! [`OutputFiles::stop_all`] removes them.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, NamedTempFile, TempPath};
 
@@ -14,6 +19,19 @@ use tempfile::{Builder, NamedTempFile, TempPath};
 #[derive(Debug, Default)]
 pub struct OutputFiles {
     pending: Vec<(PathBuf, NamedTempFile)>,
+}
+
+/// The temporary files of all runs; held while one is made, and while files are put in their places.
+static TEMPORARY: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn temporary() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// As long as it is held no file is made or put in its place.
+#[derive(Debug)]
+pub struct Stopped {
+    _held: MutexGuard<'static, BTreeSet<PathBuf>>,
 }
 
 /// A file that could not be written.
@@ -104,7 +122,26 @@ impl Placed {
     }
 }
 
+impl Drop for OutputFiles {
+    fn drop(&mut self) {
+        let mut temporary = temporary();
+        for (_, file) in self.pending.drain(..) {
+            temporary.remove(file.path());
+        }
+    }
+}
+
 impl OutputFiles {
+    /// Removes the temporary files of all runs and lets nobody write any more: for a program that is
+    /// about to end before its runs do. Waits until files that are being put in their places are there.
+    pub fn stop_all() -> Stopped {
+        let held = temporary();
+        for path in &*held {
+            let _ = fs::remove_file(path);
+        }
+        Stopped { _held: held }
+    }
+
     /// Writes a file under a temporary name. Where a link leads to the file, the link stays.
     ///
     /// # Errors
@@ -116,17 +153,29 @@ impl OutputFiles {
     ) -> Result<(), WriteError> {
         let failed = |source: io::Error| WriteError { path: path.to_owned(), source };
         let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let file = under_new_name(folder_of(&target), ".part", |name| {
-            File::options().write(true).create_new(true).open(name)
-        })
-        .map_err(failed)?;
-        // Past the temporary file, whose errors tell its own name.
-        let mut buffered = BufWriter::with_capacity(1 << 16, file.as_file());
-        write(&mut buffered).map_err(|e| failed(io::Error::other(e.to_string())))?;
-        buffered.flush().map_err(failed)?;
-        drop(buffered);
+        let file = {
+            let mut temporary = temporary();
+            let file = under_new_name(folder_of(&target), ".part", |name| {
+                File::options().write(true).create_new(true).open(name)
+            })
+            .map_err(failed)?;
+            temporary.insert(file.path().to_owned());
+            file
+        };
         self.pending.push((target, file));
-        Ok(())
+        let written = self.pending.last().map_or(Ok(()), |(_, file)| write_to(file, write));
+        written.map_err(|fault| {
+            self.drop_last();
+            failed(fault)
+        })
+    }
+
+    /// Takes back what could not be written.
+    fn drop_last(&mut self) {
+        let mut temporary = temporary();
+        if let Some((_, file)) = self.pending.pop() {
+            temporary.remove(file.path());
+        }
     }
 
     /// Where the files will be.
@@ -138,9 +187,14 @@ impl OutputFiles {
     ///
     /// # Errors
     /// The first file that cannot be put there; then all is as it was before.
-    pub fn commit(self) -> Result<(), WriteError> {
+    pub fn commit(mut self) -> Result<(), WriteError> {
+        let mut temporary = temporary();
+        let pending = std::mem::take(&mut self.pending);
+        for (_, file) in &pending {
+            temporary.remove(file.path());
+        }
         let mut placed: Vec<Placed> = Vec::new();
-        for (path, file) in self.pending {
+        for (path, file) in pending {
             if let Err(source) = put(file, &path, &mut placed) {
                 placed.into_iter().rev().for_each(Placed::take_back);
                 return Err(WriteError { path, source });
@@ -148,6 +202,16 @@ impl OutputFiles {
         }
         Ok(())
     }
+}
+
+/// Writes all of a temporary file, past its wrapper, whose errors tell its own name.
+fn write_to<E: From<io::Error> + ToString>(
+    file: &NamedTempFile,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+) -> io::Result<()> {
+    let mut buffered = BufWriter::with_capacity(1 << 16, file.as_file());
+    write(&mut buffered).map_err(|e| io::Error::other(e.to_string()))?;
+    buffered.flush()
 }
 
 /// Puts a file in its place and notes what was there.

@@ -15,9 +15,8 @@
 //! (Weiszfeld, Tôhoku Math. J. 43, 1937), with the weighted mean logarithms of A and J.
 
 use super::fit::fitted;
-use super::{
-    MatchError, MatchMode, MatchTarget, ProfileChoice, Reduction, Requirement, reduce_profiles,
-};
+use super::reduce::{KeepOn, reduce_watched};
+use super::{MatchError, MatchMode, MatchTarget, ProfileChoice, Reduction, Requirement};
 use crate::section::catalogue::Catalogue;
 use crate::section::profile::{Profile, Shape};
 
@@ -35,7 +34,7 @@ const MEDIAN_STEPS: usize = 50;
 /// * `matched`: the profile matched to each beam by itself.
 ///
 /// # Errors
-/// As [`reduce_profiles`], and if a family is not in the catalogue.
+/// As [`reduce_profiles`](super::reduce_profiles), and if a family is not in the catalogue.
 ///
 /// # Examples
 /// ```
@@ -63,24 +62,38 @@ pub fn fewest_profiles(
     mode: MatchMode,
     catalogue: &Catalogue,
 ) -> Result<Reduction, MatchError> {
+    let keep_on = &mut || Ok(());
+    fewest_profiles_watched(requirements, matched, max, choice, mode, catalogue, keep_on)
+}
+
+/// The same, unless `keep_on` asks to stop.
+pub(crate) fn fewest_profiles_watched(
+    requirements: &[Requirement],
+    matched: &[Profile],
+    max: usize,
+    choice: &ProfileChoice,
+    mode: MatchMode,
+    catalogue: &Catalogue,
+    keep_on: KeepOn<'_>,
+) -> Result<Reduction, MatchError> {
     requirements.iter().try_for_each(|beam| beam.target.check())?;
     let mut pool = matched.to_vec();
     if let ProfileChoice::Catalogue(families) = choice {
         let catalogue = catalogue.of_families(families)?;
         pool.extend(catalogue.entries().iter().map(|entry| entry.profile.clone()));
-        return reduce_profiles(requirements, &pool, max, mode);
+        return reduce_watched(requirements, &pool, max, mode, keep_on);
     }
     let families = families(matched);
     let alone: Vec<Vec<&Requirement>> = requirements.iter().map(|r| vec![r]).collect();
-    pool.extend(fits(&families, &alone, mode)?);
+    pool.extend(fits(&families, &alone, mode, keep_on)?);
     if requirements.len() <= MOST_PAIRED {
-        pool.extend(fits(&families, &pairs(requirements), mode)?);
+        pool.extend(fits(&families, &pairs(requirements), mode, keep_on)?);
     }
-    pool.extend(outlines(matched, requirements, mode)?);
-    let mut best = reduce_profiles(requirements, &pool, max, mode)?;
+    pool.extend(outlines(matched, requirements, mode, keep_on)?);
+    let mut best = reduce_watched(requirements, &pool, max, mode, keep_on)?;
     for _ in 0..MOST_ROUNDS {
-        pool.extend(fits(&families, &sharing(requirements, &best), mode)?);
-        let next = reduce_profiles(requirements, &pool, max, mode)?;
+        pool.extend(fits(&families, &sharing(requirements, &best), mode, keep_on)?);
+        let next = reduce_watched(requirements, &pool, max, mode, keep_on)?;
         if next.cost >= best.cost {
             break;
         }
@@ -120,9 +133,11 @@ fn fits(
     families: &[ProfileChoice],
     sets: &[Vec<&Requirement>],
     mode: MatchMode,
+    keep_on: KeepOn<'_>,
 ) -> Result<Vec<Profile>, MatchError> {
     let mut found = Vec::with_capacity(families.len() * sets.len());
     for set in sets {
+        keep_on()?;
         let target = together(set, mode);
         for family in families {
             found.push(Profile::new(fitted(family, &target, mode)?)?);
@@ -131,16 +146,29 @@ fn fits(
     Ok(found)
 }
 
-/// Every freeform outline, scaled to what every beam needs.
+/// Freeform outlines at all sizes, each of which takes some milliseconds to weigh: a frame of 60 kinds
+/// of beams has every outline at the size of every beam.
+const MOST_OUTLINES: usize = 4096;
+
+/// Every freeform outline, scaled to what every beam needs, or to what every so many of the beams do.
 fn outlines(
     matched: &[Profile],
     requirements: &[Requirement],
     mode: MatchMode,
+    keep_on: KeepOn<'_>,
 ) -> Result<Vec<Profile>, MatchError> {
     let mut found = Vec::new();
-    for outline in matched.iter().filter(|p| matches!(p.shape, Shape::Freeform(_))) {
+    let freeform = || matched.iter().filter(|p| matches!(p.shape, Shape::Freeform(_)));
+    let mut sizes: Vec<&Requirement> = requirements.iter().collect();
+    let stride = (freeform().count() * sizes.len()).div_ceil(MOST_OUTLINES);
+    if stride > 1 {
+        sizes.sort_by(|a, b| a.target.area.total_cmp(&b.target.area));
+        sizes = sizes.into_iter().skip(stride / 2).step_by(stride).collect();
+    }
+    for outline in freeform() {
+        keep_on()?;
         let own = outline.properties()?;
-        for Requirement { target, .. } in requirements {
+        for Requirement { target, .. } in &sizes {
             let scale = match mode {
                 MatchMode::Stiffness => {
                     (target.mean_moment() / (own.i_1 * own.i_2).sqrt()).powf(0.25)

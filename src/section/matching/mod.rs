@@ -50,6 +50,7 @@ pub use choice::{MatchMode, ProfileChoice, UnknownChoice};
 pub use equal::{Equalized, equalize};
 pub(crate) use facets::facets;
 pub use fewest::fewest_profiles;
+pub(crate) use fewest::fewest_profiles_watched;
 pub use reduce::{Reduction, Requirement, reduce_profiles};
 pub(crate) use target::folded_angle;
 pub use target::{MatchErrors, MatchTarget};
@@ -120,6 +121,10 @@ pub enum MatchError {
     /// The measured contour has no smooth outline.
     #[error(transparent)]
     Average(#[from] AverageError),
+
+    /// Whoever watches asked to stop.
+    #[error("cancelled")]
+    Cancelled,
 }
 
 /// Finds the profile for a measured section.

@@ -83,16 +83,30 @@ pub fn reduce_profiles(
     max: usize,
     mode: MatchMode,
 ) -> Result<Reduction, MatchError> {
+    reduce_watched(requirements, pool, max, mode, &mut || Ok(()))
+}
+
+/// Asked within long loops; an error ends them.
+pub(super) type KeepOn<'k> = &'k mut dyn FnMut() -> Result<(), MatchError>;
+
+/// The same, unless `keep_on` asks to stop.
+pub(super) fn reduce_watched(
+    requirements: &[Requirement],
+    pool: &[Profile],
+    max: usize,
+    mode: MatchMode,
+    keep_on: KeepOn<'_>,
+) -> Result<Reduction, MatchError> {
     if max == 0 {
         return Err(MatchError::NoProfilesAllowed);
     }
     requirements.iter().try_for_each(|beam| beam.target.check())?;
-    let pool = distinct(pool);
+    let pool = distinct(pool, keep_on)?;
     if pool.is_empty() {
         return Err(MatchError::EmptyCatalogue);
     }
     let properties: Vec<SectionProperties> =
-        pool.iter().map(|profile| profile.properties()).collect::<Result<_, _>>()?;
+        pool.iter().map(|profile| weighed(profile, keep_on)).collect::<Result<_, _>>()?;
     let costs: Vec<Vec<f64>> = properties
         .iter()
         .map(|own| requirements.iter().map(|beam| cost(own, beam, mode)).collect())
@@ -101,7 +115,7 @@ pub fn reduce_profiles(
     let sums = choices(pool.len(), max).saturating_mul(max * requirements.len());
     let is_least = sums <= TRY_ALL;
     let mut chosen =
-        if is_least { try_all(&costs, max) } else { greedy_then_exchange(&costs, max) };
+        if is_least { try_all(&costs, max) } else { greedy_then_exchange(&costs, max, keep_on)? };
     chosen.sort_unstable();
     let profile_of: Vec<usize> =
         (0..requirements.len()).map(|beam| cheapest(&costs, &chosen, beam)).collect();
@@ -131,14 +145,20 @@ fn reduction(
     }
 }
 
-fn distinct(pool: &[Profile]) -> Vec<&Profile> {
+fn distinct<'p>(pool: &'p [Profile], keep_on: KeepOn<'_>) -> Result<Vec<&'p Profile>, MatchError> {
     let mut kept: Vec<&Profile> = Vec::new();
     for profile in pool {
+        keep_on()?;
         if !kept.contains(&profile) {
             kept.push(profile);
         }
     }
-    kept
+    Ok(kept)
+}
+
+fn weighed(profile: &Profile, keep_on: KeepOn<'_>) -> Result<SectionProperties, MatchError> {
+    keep_on()?;
+    Ok(profile.properties()?)
 }
 
 fn cost(own: &SectionProperties, beam: &Requirement, mode: MatchMode) -> f64 {
@@ -220,23 +240,29 @@ fn try_all(costs: &[Vec<f64>], k: usize) -> Vec<usize> {
     best.1
 }
 
-fn greedy_then_exchange(costs: &[Vec<f64>], k: usize) -> Vec<usize> {
+fn greedy_then_exchange(
+    costs: &[Vec<f64>],
+    k: usize,
+    keep_on: KeepOn<'_>,
+) -> Result<Vec<usize>, MatchError> {
     let mut chosen = Vec::with_capacity(k);
     while chosen.len() < k {
         chosen.push(0);
         let place = chosen.len() - 1;
+        keep_on()?;
         exchange(costs, &mut chosen, place);
     }
     for _ in 0..MOST_ROUNDS {
         let before = Total::of(costs, &chosen);
         for place in 0..k {
+            keep_on()?;
             exchange(costs, &mut chosen, place);
         }
         if Total::of(costs, &chosen) >= before {
             break;
         }
     }
-    chosen
+    Ok(chosen)
 }
 
 /// Puts the best profile of the pool into one place.
@@ -297,7 +323,8 @@ mod tests {
                 .collect();
             for k in 1..5 {
                 let least = Total::of(&costs, &try_all(&costs, k));
-                let found = Total::of(&costs, &greedy_then_exchange(&costs, k));
+                let found =
+                    Total::of(&costs, &greedy_then_exchange(&costs, k, &mut || Ok(())).unwrap());
                 assert_eq!(found.unserved, least.unserved);
                 assert!(found.cost <= 1.02 * least.cost, "{mode} {k}: {found:?} {least:?}");
             }
