@@ -20,6 +20,8 @@ pub mod prepare;
 pub mod set;
 mod shadow;
 pub mod shell;
+#[cfg(test)]
+mod test_box;
 pub mod triangle_tree;
 
 pub use error::MeshError;

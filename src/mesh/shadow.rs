@@ -137,31 +137,18 @@ impl Grid {
 
 #[cfg(test)]
 mod tests {
+    use super::super::test_box;
     use super::*;
 
     /// A flat box, a needle beside it and one across both, from a sequence that is spread evenly.
     #[test]
     fn points_are_inside_the_shadow_where_the_tree_has_them_inside() {
-        let cuboid = |low: [f64; 3], size: [f64; 3]| -> Vec<[Point3<f64>; 3]> {
-            let p =
-                |k: usize| Point3::from([0, 1, 2].map(|i| low[i] + size[i] * (k >> i & 1) as f64));
-            let quads = [
-                [0, 2, 3, 1],
-                [4, 5, 7, 6],
-                [0, 1, 5, 4],
-                [2, 6, 7, 3],
-                [0, 4, 6, 2],
-                [1, 3, 7, 5],
-            ];
-            let halves = |[a, b, c, d]: [usize; 4]| [[p(a), p(b), p(c)], [p(a), p(c), p(d)]];
-            quads.into_iter().flat_map(halves).collect()
-        };
-        let triangles = [
-            cuboid([0.0; 3], [8.0, 7.0, 0.5]),
-            cuboid([0.0, 0.0, 3.0], [0.01, 0.01, 9.0]),
-            cuboid([2.0, -1.0, -1.0], [1.0, 9.0, 6.0]),
+        let boxes = [
+            test_box::triangles([0.0; 3], [8.0, 7.0, 0.5]),
+            test_box::triangles([0.0, 0.0, 3.0], [0.01, 0.01, 12.0]),
+            test_box::triangles([2.0, -1.0, -1.0], [3.0, 8.0, 5.0]),
         ];
-        let tree = TriangleTree::new(triangles.concat());
+        let tree = TriangleTree::new(boxes.concat());
         let shadow = Shadow::new(&tree);
         let mut inside = 0;
         for k in 0..4096 {

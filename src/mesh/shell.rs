@@ -158,6 +158,7 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::super::order::tests::mesh;
+    use super::super::test_box::corners_and_triangles;
     use super::*;
 
     /// Boxes from corner to corner, all turned outwards.
@@ -165,20 +166,9 @@ mod tests {
         let (mut positions, mut triangles) = (Vec::new(), Vec::new());
         for [a, b] in boxes {
             let first = positions.len() as u32;
-            positions.extend((0..8).map(|i| {
-                let side = |k: usize| if i >> k & 1 == 1 { b[k] } else { a[k] };
-                Point3::new(side(0), side(1), side(2))
-            }));
-            let quads = [
-                [0, 2, 3, 1],
-                [4, 5, 7, 6],
-                [0, 1, 5, 4],
-                [2, 6, 7, 3],
-                [0, 4, 6, 2],
-                [1, 3, 7, 5],
-            ];
-            let halves = quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]);
-            triangles.extend(halves.map(|t: [u32; 3]| t.map(|v| first + v)));
+            let (corners, faces) = corners_and_triangles(*a, *b);
+            positions.extend(corners);
+            triangles.extend(faces.into_iter().map(|t| t.map(|v| first + v)));
         }
         Shells::new(&mesh(positions, triangles))
     }

@@ -400,18 +400,11 @@ fn nearest_on_triangle(p: &Point3<f64>, &[a, b, c]: &[Point3<f64>; 3]) -> Point3
 
 #[cfg(test)]
 mod tests {
+    use super::super::test_box;
     use super::*;
 
     fn cube() -> TriangleTree {
-        let p = |k: usize| Point3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2 & 1) as f64);
-        let quads =
-            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        TriangleTree::new(
-            quads
-                .iter()
-                .flat_map(|&[a, b, c, d]| [[p(a), p(b), p(c)], [p(a), p(c), p(d)]])
-                .collect(),
-        )
+        TriangleTree::new(test_box::triangles([0.0; 3], [1.0; 3]))
     }
 
     #[test]
