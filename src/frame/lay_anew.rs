@@ -77,10 +77,9 @@ fn cost(filled: &Filled) -> f64 {
 }
 
 /// What a frame fills, and what its branches cost together, each as much as its volume.
-pub(super) fn frame_cost(making: &Making<'_>, surface: &Surface) -> (Filled, f64) {
+pub(super) fn frame_cost(making: &Making<'_>, shadow: &Shadow<'_>) -> (Filled, f64) {
     let branches = 0..making.skeleton.branches.len();
-    let shadow = Shadow::new(&surface.tree);
-    let filled = branches.map(|branch| Filled::at_a_glance(making, branch, &shadow));
+    let filled = branches.map(|branch| Filled::at_a_glance(making, branch, shadow));
     filled.fold((Filled::default(), 0.0), |(sum, costs), branch| {
         (sum.and(&branch), costs + cost(&branch) * branch.volume)
     })
@@ -93,15 +92,15 @@ pub(super) fn frame_cost(making: &Making<'_>, surface: &Surface) -> (Filled, f64
 pub(super) fn lay_anew<'a>(
     making: &mut Making<'a>,
     surface: &Surface,
+    shadow: &Shadow<'_>,
     mut settle: impl FnMut(&mut Making<'a>) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    let shadow = Shadow::new(&surface.tree);
     let branches = 0..making.skeleton.branches.len();
     let now = |branch| {
         // Only of those that are tried the cost is asked.
         let is_tried = is_broken_at_interface(making, branch);
         let measure = if is_tried { Filled::of_branch } else { Filled::at_a_glance };
-        Choice::new(measure(making, branch, &shadow))
+        Choice::new(measure(making, branch, shadow))
     };
     let mut choices: Vec<Choice> = branches.clone().map(now).collect();
     for laying in LAYINGS {
@@ -121,7 +120,7 @@ pub(super) fn lay_anew<'a>(
             if PRICE * f64::from(Filled::count(&trial, branch)) >= choice.cost {
                 continue;
             }
-            let then = Filled::of_branch(&trial, branch, &shadow);
+            let then = Filled::of_branch(&trial, branch, shadow);
             let is_plain = || then.pieces < choice.now.pieces && bow(&trial, branch) < STRAIGHT;
             if choice.now.sticks_out() || is_plain() {
                 choice.consider(laying, &then);

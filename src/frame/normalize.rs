@@ -12,7 +12,7 @@ use super::section_at::Section;
 use super::shape::BeamShape;
 use super::{Beam, Frame, NodeId, Passage, bend, continuous, deviation, direction, hold};
 use crate::finding::Finding;
-use crate::mesh::Surface;
+use crate::mesh::{Shadow, Surface};
 use crate::observer::Observer;
 use crate::skeleton::Skeleton;
 
@@ -54,14 +54,15 @@ pub(crate) fn normalize_watched(
     params: &FrameParams,
     observer: &mut impl Observer,
 ) -> ControlFlow<(), Normalized> {
-    let mut making = Making::new(skeleton, sections, &surface.interfaces, params);
-    let mut findings = lay(&mut making, surface, observer)?;
-    let (filled, cost) = frame_cost(&making, surface);
+    let mut held = Making::new(skeleton, sections, &surface.interfaces, params);
+    let mut making = held.clone();
+    let shadow = Shadow::new(&surface.tree);
+    let mut findings = lay(&mut making, surface, &shadow, observer)?;
+    let (filled, cost) = frame_cost(&making, &shadow);
     if filled.sticks_out() {
-        let mut held = Making::new(skeleton, sections, &surface.interfaces, params);
         held.hold_junctions();
-        let held_findings = lay(&mut held, surface, observer)?;
-        if frame_cost(&held, surface).1 < cost {
+        let held_findings = lay(&mut held, surface, &shadow, observer)?;
+        if frame_cost(&held, &shadow).1 < cost {
             (making, findings) = (held, held_findings);
         }
     }
@@ -83,11 +84,12 @@ pub(crate) fn normalize_watched(
 fn lay(
     making: &mut Making<'_>,
     surface: &Surface,
+    shadow: &Shadow<'_>,
     observer: &mut impl Observer,
 ) -> ControlFlow<(), Vec<Finding>> {
     let mut findings = Vec::new();
     settle(making, surface, &mut findings, observer)?;
-    lay_anew(making, surface, |making| settle(making, surface, &mut Vec::new(), observer))?;
+    lay_anew(making, surface, shadow, |making| settle(making, surface, &mut Vec::new(), observer))?;
     ControlFlow::Continue(findings)
 }
 

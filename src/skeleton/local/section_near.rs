@@ -72,6 +72,15 @@ pub(crate) fn section_round(
     {
         return None;
     }
+    extent_in_design(surface, contour, plane)
+}
+
+/// What a contour encloses, if that is material and only design faces are crossed.
+pub(crate) fn extent_in_design(
+    surface: &Surface,
+    contour: &Contour,
+    plane: &Plane,
+) -> Option<Extent> {
     if contour.half_edges.iter().any(|h| !surface.labels.is_design(h.face())) {
         return None;
     }
