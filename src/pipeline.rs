@@ -19,7 +19,7 @@ use crate::section::Catalogue;
 use crate::section::catalogue::CatalogueError;
 use crate::section::matching::{MatchError, ProfileChoice};
 use crate::skeleton::params::OutOfRange;
-use crate::skeleton::{self, Marched, Skeleton, SkeletonError, SkeletonParams};
+use crate::skeleton::{self, Marched, Orientation, Skeleton, SkeletonError, SkeletonParams};
 use crate::wording::{counted, figures};
 
 /// Everything that steers a run.
@@ -97,6 +97,24 @@ pub enum PipelineError {
         path: PathBuf,
         /// Why.
         source: SkeletonError,
+    },
+    /// No branch of the skeleton became a beam.
+    #[error(
+        "no beam of {}: the march found {}, but none is as long as it is thick; {}",
+        path.display(),
+        counted(*branches, "branch", "branches"),
+        match orientation {
+            Orientation::Global => "try --orientation local, which turns with the part",
+            Orientation::Local => "beamwright needs a beam-like result",
+        }
+    )]
+    NoBeam {
+        /// The file.
+        path: PathBuf,
+        /// Which march.
+        orientation: Orientation,
+        /// Branches it found.
+        branches: usize,
     },
     /// A parameter is out of its range.
     #[error(transparent)]
@@ -186,6 +204,11 @@ pub fn run(
         frame::normalize_watched(&skeleton, &sections, &surface, &settings.frame, observer);
     let Normalized { mut frame, findings: odd } = unless_stopped(watched)?;
     findings.extend(odd);
+    if frame.beams.is_empty() {
+        let orientation = settings.skeleton.orientation;
+        let branches = skeleton.branches.len();
+        return Err(PipelineError::NoBeam { path: path.to_owned(), orientation, branches });
+    }
     step(observer, Stage::Frame, 0)?;
     let matched =
         frame::match_profiles_watched(&mut frame, &settings.profiles, &catalogue, observer);

@@ -139,7 +139,9 @@ fn reconstruct(
 
 /// Why the beams of a mesh are no solids, and what to do where its size tells.
 fn not_built(mesh: &Path, surface: &Surface, fault: &AssemblyError) -> Failure {
-    let advice = pipeline::unit_in_doubt(surface.report.extent);
+    // A part whose beams are too fine is told so.
+    let is_told = matches!(fault, AssemblyError::TooFine { .. });
+    let advice = pipeline::unit_in_doubt(surface.report.extent).filter(|_| !is_told);
     let advice = advice.map_or_else(String::new, |advice| format!("; {advice}"));
     Failure::input(format!("cannot build {}: {fault}{advice}", mesh.display()))
 }

@@ -50,6 +50,17 @@ pub enum MeshError {
         first: Point3<f64>,
     },
 
+    /// The part is so small or large that its second moments are no numbers any more.
+    #[error(
+        "the part is {width:.1e} mm wide, and only parts from {smallest:e} to {largest:e} mm can be \
+         measured; scale it, or remove the points that lie far out",
+        smallest = SCALE[0], largest = SCALE[1]
+    )]
+    OutOfScale {
+        /// Largest side of the box round it, mm.
+        width: f64,
+    },
+
     /// The surface encloses no volume.
     #[error("the surface encloses no volume; a solid body is needed")]
     NoVolume,
@@ -65,6 +76,10 @@ pub enum MeshError {
     #[error("cancelled")]
     Cancelled,
 }
+
+/// Extents of parts that can be measured, mm. Products of two second moments are eighth powers of a
+/// length, which are numbers from 1e-38 to 1e38 mm; the beams of a part may be 10⁶ times finer than it.
+pub(super) const SCALE: [f64; 2] = [1e-30, 1e30];
 
 fn place(p: &Point3<f64>) -> String {
     format!("({:.2}, {:.2}, {:.2}) mm", p.x, p.y, p.z)

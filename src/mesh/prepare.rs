@@ -20,7 +20,7 @@
 use beamwright_formats::RawMesh;
 use nalgebra::Point3;
 
-use super::error::MeshError;
+use super::error::{MeshError, SCALE};
 use super::fans::{drop_unused_points, split_shared_vertices};
 use super::fill::close_openings;
 use super::half_edge::HalfEdgeMesh;
@@ -161,6 +161,7 @@ pub(crate) fn prepare_watched(
         return Err(MeshError::NoTriangles);
     }
     let twins = make_closed(&mut soup, &mut report)?;
+    check_scale(&soup.positions)?;
     keep_on(observer)?;
     let (soup, twins) = choose_outward(&mut soup, twins, &mut report)?;
     keep_on(observer)?;
@@ -200,6 +201,19 @@ fn make_closed(soup: &mut IndexedMesh, report: &mut MeshReport) -> Result<Vec<u3
     report.split_vertices = split_shared_vertices(soup, &twins);
     drop_unused_points(soup);
     Ok(twins)
+}
+
+/// An error for a part that no number measures. The largest side of its box tells, which is a number
+/// where the diagonal is none any more.
+fn check_scale(points: &[Point3<f64>]) -> Result<(), MeshError> {
+    let side = |k: usize| {
+        let along = points.iter().map(|p| p[k]);
+        let (low, high) = along.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
+        (high - low).min(f64::MAX)
+    };
+    let width = (0..3).map(side).fold(0.0, f64::max);
+    let is_measured = (SCALE[0]..=SCALE[1]).contains(&width);
+    if is_measured { Ok(()) } else { Err(MeshError::OutOfScale { width }) }
 }
 
 /// Step 6: turns every body outwards and drops the cavities.

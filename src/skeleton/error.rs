@@ -4,6 +4,7 @@ use nalgebra::Point3;
 
 use super::params::OutOfRange;
 use crate::observer::Observer;
+use crate::wording::counted;
 
 /// Why a march could not produce a skeleton.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -23,6 +24,17 @@ pub enum SkeletonError {
         near: Point3<f64>,
     },
 
+    /// What could be a strut encloses nothing.
+    #[error(
+        "the design part, which is what is not labelled non-design, encloses no volume (the part has a \
+         point at ({:.2}, {:.2}, {:.2}) mm); check the labels and the scale of each axis",
+        near.x, near.y, near.z
+    )]
+    NoDesign {
+        /// A point of the surface.
+        near: Point3<f64>,
+    },
+
     /// The mesh reaches so far that what is thick in it cannot be told from nothing.
     #[error(
         "the mesh reaches {ratio:.1e} times as far as it is thick; the point at ({:.2}, {:.2}, {:.2}) \
@@ -34,6 +46,28 @@ pub enum SkeletonError {
         ratio: f64,
         /// The point farthest from the middle.
         farthest: Point3<f64>,
+    },
+
+    /// The march in the global frame found nothing to follow.
+    #[error(
+        "the march in the global frame found no branch from any of {}; try --orientation local, which \
+         turns with the part", counted(*starts, "start", "starts")
+    )]
+    NoBranch {
+        /// Places it began at.
+        starts: usize,
+    },
+
+    /// The march in the global frame goes on and on.
+    #[error(
+        "the march in the global frame does not end: it has looked {looks} times at every point of the \
+         part and found {}; try --orientation local", counted(*branches, "branch", "branches")
+    )]
+    Endless {
+        /// Times it looked at every point.
+        looks: usize,
+        /// Branches found so far.
+        branches: usize,
     },
 
     /// The observer asked to stop.

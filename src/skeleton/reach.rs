@@ -12,13 +12,18 @@ use crate::mesh::Surface;
 /// radii; a corner that a flipped bit moves reaches 10⁹ and more.
 const FARTHEST: f64 = 1e6;
 
-/// An error for a surface that reaches too far; it names the point to look at.
+/// An error for a surface that reaches too far, or has no design part to be told against; it names a
+/// point to look at.
 pub(super) fn check(surface: &Surface) -> Result<(), SkeletonError> {
-    let ratio = surface.report.extent / surface.mean_radius();
+    let positions = surface.mesh.positions();
+    let mean_radius = surface.mean_radius();
+    if mean_radius.is_nan() || mean_radius <= 0.0 {
+        return Err(SkeletonError::NoDesign { near: positions[0] });
+    }
+    let ratio = surface.report.extent / mean_radius;
     if ratio <= FARTHEST {
         return Ok(());
     }
-    let positions = surface.mesh.positions();
     let sum: Vector3<f64> = positions.iter().map(|p| p.coords).sum();
     let middle = Point3::from(sum / positions.len() as f64);
     let far = |p: &Point3<f64>| (p - middle).norm();

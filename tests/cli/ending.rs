@@ -1,9 +1,9 @@
 //! How a run ends: the exit code says what happened.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 
-use crate::common::frame::cube;
+use crate::common::frame::{bar, cube};
 use crate::common::program::{Ran, command, run};
 use crate::{folder_with_bar, names, sample};
 
@@ -157,6 +157,27 @@ fn an_interrupted_run_ends_with_130_and_writes_nothing() {
     assert_eq!(kept, "kept");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_run_that_waits_where_nothing_asks_whether_to_stop_is_interrupted_too() {
+    let folder = folder_with_bar();
+    // More than a pipe holds: the program waits for a reader that has had enough.
+    let mut child = command(folder.path())
+        .args(["profiles", "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut out = child.stdout.take().expect("a pipe");
+    out.read_exact(&mut [0]).expect("a first byte");
+    let id = child.id().to_string();
+    let sent = std::process::Command::new("kill").args(["-INT", &id]).status().expect("kill");
+    assert!(sent.success());
+    let ran = Ran::from(child.wait_with_output().expect("an end"));
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(130), "error: interrupted\n"));
+    drop(out);
+}
+
 #[test]
 fn numbers_that_cannot_be_end_with_2_before_anything_is_read() {
     let folder = folder_with_bar();
@@ -206,4 +227,35 @@ fn the_mesh_file_beside_is_claimed_only_where_it_is_written() {
     let words = ["reconstruct", "bar.obj", "-o", "a.step", "--skeleton", "a.non-design.ply"];
     run(folder.path(), &words).succeeded();
     assert!(names(folder.path()).contains(&"a.non-design.ply".to_owned()));
+}
+
+#[test]
+fn a_march_whose_branches_are_no_beams_says_what_to_do() {
+    let folder = folder_with_bar();
+    // Stretched across, the bar is a tall sheet for a march that does not turn with it.
+    let text = std::fs::read_to_string(sample("single_bar.obj")).expect("a mesh");
+    let stretched = |line: &str| match line.split_whitespace().collect::<Vec<_>>()[..] {
+        ["v", x, y, z] => format!("v {x} {y} {z}e4\n"),
+        ["f", ..] => format!("{line}\n"),
+        _ => String::new(),
+    };
+    let text: String = text.lines().map(stretched).collect();
+    std::fs::write(folder.path().join("sheet.obj"), text).expect("a file");
+    let words = ["reconstruct", "sheet.obj", "-o", "a.step", "--orientation", "global"];
+    let message = run(folder.path(), &words).failed(1);
+    let start =
+        "no beam of sheet.obj: the march found 1 branch, but none is as long as it is thick; ";
+    assert_eq!(message, format!("{start}try --orientation local, which turns with the part"));
+    assert_eq!(names(folder.path()), ["bar.obj", "sheet.obj"]);
+}
+
+#[test]
+fn a_part_whose_design_encloses_nothing_says_what_to_do() {
+    let folder = folder_with_bar();
+    let mut mesh = bar().mesh(2.0);
+    mesh.positions.iter_mut().for_each(|p| p[0] *= 1e-3);
+    std::fs::write(folder.path().join("flat.obj"), mesh.obj()).expect("a file");
+    let message = run(folder.path(), &["skeleton", "flat.obj", "-o", "a.json"]).failed(1);
+    assert!(message.starts_with("no skeleton of flat.obj: the design part, "), "{message}");
+    assert_eq!(names(folder.path()), ["bar.obj", "flat.obj"]);
 }

@@ -63,7 +63,24 @@ fn a_part_of_kilometres_is_told() {
 fn a_part_too_small_for_a_solid_is_told_with_what_to_do() {
     let folder = folder_with(1e-7);
     let message = run(folder.path(), &["reconstruct", "bar.obj", "-o", "a.step"]).failed(1);
-    assert!(message.starts_with("cannot build bar.obj: no beam can be built as a solid; B001 "));
-    assert!(message.ends_with("is the file in metres? --unit m"), "{message}");
+    let start = "cannot build bar.obj: the longest beam, B001, is ";
+    let end = " mm thick, and CAD programs take lengths below 1e-5 mm for nothing; scale the part, or \
+               tell the unit of the file with --unit";
+    assert!(message.starts_with(start) && message.ends_with(end), "{message}");
     assert_eq!(names(folder.path()), ["bar.obj"]);
+}
+
+#[test]
+fn a_part_of_a_scale_that_no_number_measures_is_told() {
+    for (factor, across) in [(1e-160, "e-159"), (1e160, "e161"), (1e300, "e301")] {
+        let folder = folder_with(factor);
+        let message = run(folder.path(), &["reconstruct", "bar.obj", "-o", "a.step"]).failed(1);
+        let end = format!(
+            "{across} mm wide, and only parts from 1e-30 to 1e30 mm can be measured; scale it, or \
+             remove the points that lie far out"
+        );
+        assert!(message.starts_with("cannot use bar.obj: the part is "), "{message}");
+        assert!(message.ends_with(&end), "{message}");
+        assert_eq!(names(folder.path()), ["bar.obj"]);
+    }
 }

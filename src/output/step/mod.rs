@@ -88,6 +88,7 @@ pub use facets::{Circle, Facet, Facets, Loop};
 pub use freeform::Freeform;
 pub use loft::{Between, EndCut, Loft, Station};
 pub use outline::{Outline, Path, Segment};
+pub use piece::SHORTEST;
 
 pub use crate::saddle::Saddle;
 

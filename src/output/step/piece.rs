@@ -11,7 +11,7 @@ use super::gauss;
 ///
 /// Kernels based on Parasolid tell points apart from 1e-5 mm on, OCCT from
 /// 1e-7 mm on; a shorter edge would come back as an invalid solid.
-pub(super) const SHORTEST: f64 = 1e-5;
+pub const SHORTEST: f64 = 1e-5;
 
 /// How far two measures may differ, relative to their size, and count as equal.
 pub(super) const SAME: f64 = 1e-12;

@@ -47,7 +47,7 @@ use std::ops::ControlFlow;
 use self::branch::{End, Marcher, Origin, Start};
 use self::direction::Direction;
 use self::identifier_box::IdentifierBox;
-use self::scan::{Piece, Scanner};
+use self::scan::{MOST_LOOKS, Piece, Scanner};
 use self::sketch::Sketch;
 use super::Marched;
 use super::error::SkeletonError;
@@ -82,17 +82,19 @@ pub fn skeleton(
     for (i, start) in starts.iter().enumerate() {
         check(observer, i, starts.len())?;
         run.branch_from(start.clone());
+        run.check_end()?;
     }
     // Junctions found on the way are appended and investigated in their turn (§3.4.3).
     let mut next = 0;
     while next < run.sketch.junctions.len() && next < run.most_junctions {
         check(observer, next, run.sketch.junctions.len())?;
         run.investigate(next);
+        run.check_end()?;
         next += 1;
     }
     let skeleton = run.sketch.finish();
     if skeleton.branches.is_empty() {
-        return Err(SkeletonError::NotBeamLike { near: surface.mesh.positions()[0] });
+        return Err(SkeletonError::NoBranch { starts: starts.len() });
     }
     Ok(Marched { skeleton, findings: Vec::new() })
 }
@@ -141,6 +143,15 @@ impl<'a> Run<'a> {
             interfaces: &surface.interfaces,
             mean_radius: surface.mean_radius(),
         })
+    }
+
+    /// An error once the march has looked at the part so often that it will not come to its end.
+    fn check_end(&self) -> Result<(), SkeletonError> {
+        if self.marcher.scanner.is_spent() {
+            let branches = self.sketch.chains();
+            return Err(SkeletonError::Endless { looks: MOST_LOOKS, branches });
+        }
+        Ok(())
     }
 
     /// Where marches begin: interface sections, or the outermost places.

@@ -27,6 +27,11 @@ pub(crate) struct Sketch {
 }
 
 impl Sketch {
+    /// Number of chains.
+    pub(crate) fn chains(&self) -> usize {
+        self.chains.len()
+    }
+
     pub(crate) fn add_point(&mut self, point: SkeletalPoint) -> u32 {
         self.points.push(point);
         self.points.len() as u32 - 1

@@ -3,20 +3,23 @@
 //! Beams that are one piece (see [`Alike`]) share the solid and the properties of the first of
 //! them: its length and mass, all their branches, the worst of their errors.
 
+mod error;
+
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 
-use super::mesh_export::PartMesh;
-use super::non_design::{NonDesign, non_design};
-use super::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
 use crate::finding::{Finding, FindingKind};
 pub use crate::frame::mark;
 use crate::frame::shape::{BeamShape, ShapeStation};
 use crate::frame::{Beam, Frame};
 use crate::joint::{Alike, Ball, CutBeam, EndCut, Joints, SAME_PIECE};
 use crate::mesh::Surface;
+use crate::output::mesh_export::PartMesh;
+use crate::output::non_design::{NonDesign, non_design};
+use crate::output::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
 use crate::section::matching::MatchErrors;
 use crate::section::outline::{Outline, Segment};
 use crate::wording::figures;
+pub use error::AssemblyError;
 
 /// Colours given to profiles in turn: distinct for the common kinds of colour blindness
 /// (Okabe and Ito, *Color Universal Design*, 2008), without black.
@@ -53,24 +56,6 @@ pub struct SolidSize {
     pub volume: f64,
     /// Area of the outside between the cuts, mm².
     pub skin: f64,
-}
-
-/// Why there is no assembly.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum AssemblyError {
-    /// No beam is a solid, not even as a round bar.
-    #[error("no beam can be built as a solid; {beam}: {fault}")]
-    NoBeam {
-        /// Mark and name of the first.
-        beam: String,
-        /// What is wrong with it.
-        fault: step::BodyError,
-    },
-
-    /// The ball of a joint is no solid.
-    #[error("a ball of a joint is no solid: {0}")]
-    Ball(#[from] step::BodyError),
 }
 
 impl Assembly {
@@ -124,7 +109,7 @@ pub fn assembly(
     }
     if let (true, Some(Err(fault))) = (parts.is_empty(), models.first()) {
         let (beam, fault) = (shown(0, &frame.beams[0]), fault.clone());
-        return Err(AssemblyError::NoBeam { beam, fault });
+        return Err(AssemblyError::too_fine(frame).unwrap_or(AssemblyError::NoBeam { beam, fault }));
     }
     let parts = parts.into_iter().filter_map(|(kind, name, at)| {
         models[kind].as_ref().ok().map(|model| model.placed(name, at))
