@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use beamwright::frame::{Beam, BeamAxes, BeamSection, BeamShape, Frame, Node, NodeId, NodeKind};
 use beamwright::joint::{JointKind, joints};
 use beamwright::output::assembly::assembly;
-use beamwright::output::step::{self, Body, Document, Loft, Outline, Part, Path, Property, Value};
-use beamwright::section::{Profile, Shape};
+use beamwright::output::step::{self, Body, Document, Loft, Part, Property, Value};
+use beamwright::section::{Outline, Profile, Shape};
 use criterion::{Criterion, Throughput};
 use nalgebra::{Isometry3, Point3, Unit, Vector2, Vector3};
 
@@ -53,16 +53,18 @@ fn place(i: usize) -> Isometry3<f64> {
 
 fn kinds() -> Vec<Document> {
     let solid = |outer: Outline| (outer, vec![]);
-    let rectangle = || Outline::Path(Path::rectangle(12.0, 8.0).unwrap());
-    let rounded = |w, h, r| Outline::Path(Path::rounded_rectangle(w, h, r).unwrap());
+    let shaped = |shape: Shape| {
+        let region = Profile::new(shape).expect("a shape").region();
+        (region.outer, region.holes)
+    };
     vec![
         beams("round", || solid(Outline::circle(5.0))),
         of_lengths(100, "round in 100 lengths", || solid(Outline::circle(5.0))),
         beams("tube", || (Outline::circle(5.0), vec![Outline::circle(4.0)])),
-        beams("rectangle", || solid(rectangle())),
-        beams("box", || (rounded(12.0, 8.0, 1.5), vec![rounded(10.0, 6.0, 0.5)])),
+        beams("rectangle", || shaped(Shape::Rectangle { b: 12.0, h: 8.0 })),
+        beams("box", || shaped(Shape::Box { b: 12.0, h: 8.0, t: 1.0, r_o: 1.5, r_i: 0.5 })),
         beams("ellipse", || solid(Outline::ellipse(6.0, 4.0))),
-        beams("ipe", || solid(Outline::Path(Path::i_section(20.0, 10.0, 0.6, 0.9, 1.2).unwrap()))),
+        beams("ipe", || shaped(Shape::I { h: 20.0, b: 10.0, t_w: 0.6, t_f: 0.9, r: 1.2 })),
         beams("freeform64", || solid(freeform(64, Vector2::new(0.5, 0.5), 0.0))),
     ]
 }

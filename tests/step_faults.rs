@@ -5,9 +5,10 @@ mod step_family;
 use std::io::{Error, ErrorKind, Write};
 
 use beamwright::output::step::{
-    self, Between, Body, BodyError, Document, EndCut, Facet, Facets, Freeform, Loft, Loop, Outline,
-    Path, Property, Segment, Station, StepError, Value,
+    self, Between, Body, BodyError, Document, EndCut, Facet, Facets, Loft, Loop, Property, Station,
+    StepError, Value,
 };
+use beamwright::section::{Freeform, Outline, Path, Segment};
 use nalgebra::{Isometry3, Point2, Vector3};
 use step_family::{document, part, solids};
 
@@ -27,8 +28,11 @@ fn prism(outer: Outline) -> Loft {
     Loft::prism(outer, vec![], 100.0)
 }
 
-fn path(points: &[(f64, f64)]) -> Outline {
-    Outline::polygon(&points.iter().map(|&(x, y)| Point2::new(x, y)).collect::<Vec<_>>())
+/// Lines from corner to corner, as given.
+fn path(corners: &[(f64, f64)]) -> Outline {
+    let mut corners = corners.iter().map(|&(x, y)| Point2::new(x, y));
+    let start = corners.next().unwrap();
+    Outline::Path(Path { start, segments: corners.map(|to| Segment::Line { to }).collect() })
 }
 
 #[test]
@@ -102,7 +106,7 @@ fn freeform_that_crosses_itself_is_refused() {
         let t = std::f64::consts::TAU * f64::from(i) / 24.0;
         Point2::new(10.0 * t.sin() + 2.0 * t.cos(), 5.0 * (2.0 * t).sin())
     });
-    let curve = Freeform::through(&eight.collect::<Vec<_>>()).unwrap();
+    let curve = Freeform::through(eight.collect()).unwrap();
     let fault = fault(Body::Loft(prism(Outline::Freeform(curve))));
     assert!(matches!(fault, BodyError::NoArea | BodyError::SelfCrossing { .. }));
 }

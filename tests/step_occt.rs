@@ -10,7 +10,8 @@ mod step_family;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use beamwright::output::step::{self, Body, Document, EndCut, Group, Loft, Outline, Part, Value};
+use beamwright::output::step::{self, Body, Document, EndCut, Group, Loft, Part, Value};
+use beamwright::section::Outline;
 use step_family::{Case, cases};
 
 #[test]

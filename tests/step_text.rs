@@ -5,6 +5,7 @@ mod step_family;
 use std::collections::{BTreeMap, BTreeSet};
 
 use beamwright::output::step::{self, Body, Document, Property, Value};
+use beamwright::section::Outline;
 use nalgebra::Isometry3;
 use step_family::{cases, document, part, solids};
 
@@ -148,7 +149,7 @@ fn exact_shapes_have_exact_surfaces() {
 #[test]
 fn stations_on_a_straight_way_make_one_face() {
     let circle =
-        |z: f64| step::Station { z, outer: step::Outline::circle(10.0 - 0.01 * z), holes: vec![] };
+        |z: f64| step::Station { z, outer: Outline::circle(10.0 - 0.01 * z), holes: vec![] };
     let loft = step::Loft::between_stations([0.0, 100.0, 250.0, 300.0].map(circle).to_vec());
     let text = text(&document("d", vec![part("p", Body::Loft(loft))]));
     assert_eq!(count(&text, "CONICAL_SURFACE"), 1);

@@ -6,8 +6,9 @@ pub mod solids;
 use std::f64::consts::TAU;
 
 use beamwright::output::step::{
-    Between, Body, Document, EndCut, Freeform, Group, Loft, Outline, Part, Path, Saddle, Station,
+    Between, Body, Document, EndCut, Group, Loft, Part, Saddle, Station,
 };
+use beamwright::section::{Freeform, Outline, Profile, Shape};
 use nalgebra::{Isometry3, Point2, Rotation2, UnitVector3, Vector2, Vector3};
 
 /// Length of the beams; 75° cuts of the widest section leave some of it.
@@ -23,10 +24,10 @@ pub struct Case {
 pub type Section = (Outline, Vec<Outline>);
 
 /// Makes a section of a family: scaled along x and y, turned by an angle.
-pub type Profile = fn(Vector2<f64>, f64) -> Section;
+pub type Kind = fn(Vector2<f64>, f64) -> Section;
 
 /// Every outline kind, by name.
-pub fn profiles() -> Vec<(&'static str, Profile)> {
+pub fn profiles() -> Vec<(&'static str, Kind)> {
     vec![
         ("round", |s, _| (Outline::circle(20.0 * s.x), vec![])),
         ("tube", |s, _| (Outline::circle(20.0 * s.x), vec![Outline::circle(15.0 * s.x)])),
@@ -39,19 +40,16 @@ pub fn profiles() -> Vec<(&'static str, Profile)> {
         ("elliptic_tube", |s, turn| {
             (ellipse(24.0 * s.x, 15.0 * s.y, turn), vec![ellipse(20.0 * s.x, 11.0 * s.y, turn)])
         }),
-        ("rectangle", |s, turn| (moved(Path::rectangle(40.0, 30.0).unwrap(), s, turn), vec![])),
+        ("rectangle", |s, turn| shaped(Shape::Rectangle { b: 40.0, h: 30.0 }, s, turn)),
         ("box", |s, turn| {
-            let bore = moved(Path::rounded_rectangle(32.0, 22.0, 3.0).unwrap(), s, turn);
-            (moved(Path::rounded_rectangle(40.0, 30.0, 7.0).unwrap(), s, turn), vec![bore])
+            shaped(Shape::Box { b: 40.0, h: 30.0, t: 4.0, r_o: 7.0, r_i: 3.0 }, s, turn)
         }),
-        ("i", |s, turn| {
-            (moved(Path::i_section(40.0, 24.0, 4.0, 6.0, 3.0).unwrap(), s, turn), vec![])
-        }),
+        ("i", |s, turn| shaped(Shape::I { h: 40.0, b: 24.0, t_w: 4.0, t_f: 6.0, r: 3.0 }, s, turn)),
         ("channel", |s, turn| {
-            (moved(Path::channel(40.0, 20.0, 4.0, 5.0, 3.0).unwrap(), s, turn), vec![])
+            shaped(Shape::C { h: 40.0, b: 20.0, t_w: 4.0, t_f: 5.0, r: 3.0 }, s, turn)
         }),
         ("angle", |s, turn| {
-            (moved(Path::angle(40.0, 30.0, 5.0, 5.0, 2.5).unwrap(), s, turn), vec![])
+            shaped(Shape::L { h: 40.0, b: 30.0, t: 5.0, r_1: 5.0, r_2: 2.5 }, s, turn)
         }),
         ("freeform", |s, turn| (freeform(24, s, turn), vec![])),
     ]
@@ -61,16 +59,15 @@ fn ellipse(a: f64, b: f64, turn: f64) -> Outline {
     Outline::Ellipse { centre: Point2::origin(), half_axes: [a, b], turn }
 }
 
-/// A path scaled by `s.x` all over, and turned.  Arcs stay circles.
-fn moved(path: Path, s: Vector2<f64>, turn: f64) -> Outline {
-    use beamwright::output::step::Segment;
-    let turn = Rotation2::new(turn);
-    let to = |p: Point2<f64>| turn * (p * s.x);
-    let segments = path.segments.iter().map(|segment| match *segment {
-        Segment::Line { to: end } => Segment::Line { to: to(end) },
-        Segment::Arc { to: end, sweep } => Segment::Arc { to: to(end), sweep },
-    });
-    Outline::Path(Path { start: to(path.start), segments: segments.collect() })
+/// A shape scaled by `s.x` all over, and turned.  Arcs stay circles.
+fn shaped(shape: Shape, s: Vector2<f64>, turn: f64) -> Section {
+    let region = Profile::new(shape.scaled(s.x)).unwrap().region().turned(turn);
+    (region.outer, region.holes)
+}
+
+/// A rectangle about the axis.
+pub fn rectangle(b: f64, h: f64) -> Outline {
+    Profile::new(Shape::Rectangle { b, h }).unwrap().region().outer
 }
 
 /// A wavy closed curve through `n` points.
@@ -82,11 +79,11 @@ pub fn freeform(n: usize, s: Vector2<f64>, turn: f64) -> Outline {
             Rotation2::new(turn) * Point2::new(r * t.cos() * s.x, 0.85 * r * t.sin() * s.y)
         })
         .collect();
-    Outline::Freeform(Freeform::through(&points).unwrap())
+    Outline::Freeform(Freeform::through(points).unwrap())
 }
 
 /// Every way to loft a profile, by name.
-pub fn lofts(profile: Profile) -> Vec<(&'static str, Loft)> {
+pub fn lofts(profile: Kind) -> Vec<(&'static str, Loft)> {
     let station = |z: f64, x: f64, y: f64, turn: f64| {
         let (outer, holes) = profile(Vector2::new(x, y), turn);
         Station { z, outer, holes }
@@ -170,7 +167,7 @@ pub fn beams() -> Vec<Case> {
         .collect()
 }
 
-fn all(profile: Profile) -> Vec<Part> {
+fn all(profile: Kind) -> Vec<Part> {
     let mut parts = Vec::new();
     for (loft_name, loft) in lofts(profile) {
         for (cut_name, start, end) in cuts() {

@@ -17,7 +17,6 @@ use crate::output::mesh_export::PartMesh;
 use crate::output::non_design::{NonDesign, non_design};
 use crate::output::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
 use crate::section::matching::MatchErrors;
-use crate::section::outline::{Outline, Segment};
 use crate::wording::figures;
 pub use error::AssemblyError;
 
@@ -214,7 +213,7 @@ fn sound_loft(
     placement: &Isometry3<f64>,
 ) -> Result<(Loft, Option<&'static str>), step::BodyError> {
     let sound = |shape: &BeamShape, cut: &CutBeam| {
-        let loft = loft(shape, cut, placement)?;
+        let loft = loft(shape, cut, placement);
         Body::Loft(loft.clone()).check().map(|_| loft)
     };
     if let Ok(wanted) = sound(&beam.shape, cut) {
@@ -286,16 +285,12 @@ fn placement(beam: &Beam, frame: &Frame) -> Isometry3<f64> {
 }
 
 /// The loft of a shape between the cuts of its ends.
-fn loft(
-    shape: &BeamShape,
-    cut: &CutBeam,
-    placement: &Isometry3<f64>,
-) -> Result<Loft, step::BodyError> {
-    let stations = shape
-        .stations
-        .iter()
-        .map(|s| station(s, cut.ends[0].setback, cut.axis_length))
-        .collect::<Result<Vec<_>, step::BodyError>>()?;
+fn loft(shape: &BeamShape, cut: &CutBeam, placement: &Isometry3<f64>) -> Loft {
+    let station = |s: &ShapeStation| Station {
+        z: cut.ends[0].setback + s.at * cut.axis_length,
+        outer: s.region.outer.clone(),
+        holes: s.region.holes.clone(),
+    };
     let local = |end: &EndCut| match (end.saddle, end.normal) {
         (Some(saddle), _) => step::EndCut::Saddle(saddle),
         (None, Some(normal)) => {
@@ -305,38 +300,6 @@ fn loft(
         (None, None) => step::EndCut::Square,
     };
     let [start, end] = [local(&cut.ends[0]), local(&cut.ends[1])];
-    Ok(Loft { start, end, ..Loft::between_stations(stations) })
-}
-
-fn station(station: &ShapeStation, start: f64, length: f64) -> Result<Station, step::BodyError> {
-    Ok(Station {
-        z: start + station.at * length,
-        outer: outline(&station.region.outer)?,
-        holes: station.region.holes.iter().map(outline).collect::<Result<_, _>>()?,
-    })
-}
-
-fn outline(outline: &Outline) -> Result<step::Outline, step::BodyError> {
-    Ok(match outline {
-        Outline::Circle { centre, radius } => {
-            step::Outline::Circle { centre: *centre, radius: *radius }
-        }
-        Outline::Ellipse { centre, half_axes, turn } => {
-            step::Outline::Ellipse { centre: *centre, half_axes: *half_axes, turn: *turn }
-        }
-        Outline::Path(path) => step::Outline::Path(step::Path {
-            start: path.start,
-            segments: path
-                .segments
-                .iter()
-                .map(|s| match *s {
-                    Segment::Line { to } => step::Segment::Line { to },
-                    Segment::Arc { to, sweep } => step::Segment::Arc { to, sweep },
-                })
-                .collect(),
-        }),
-        Outline::Freeform(curve) => {
-            step::Outline::Freeform(step::Freeform::through(curve.points())?)
-        }
-    })
+    let stations = shape.stations.iter().map(station).collect();
+    Loft { start, end, ..Loft::between_stations(stations) }
 }

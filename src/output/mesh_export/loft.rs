@@ -6,7 +6,8 @@ use nalgebra::{Point2, Point3, Vector2, Vector3};
 
 use super::{ROUND, Triangles};
 use crate::output::cap::{Ring, cap};
-use crate::output::step::{EndCut, Loft, Outline, Path, Segment};
+use crate::output::step::{ClosedSpline, EndCut, Loft};
+use crate::section::outline::{Outline, Path, Segment};
 
 /// A cut may shorten a beam by this part of the way to the next station; beyond, the end is turned
 /// instead.
@@ -135,8 +136,11 @@ fn ring(outline: &Outline, round: &Corners) -> Ring {
         Outline::Ellipse { centre, half_axes, turn } => round.on(*centre, *half_axes, *turn),
         Outline::Path(path) => along(path),
         Outline::Freeform(curve) => {
-            let count = (2 * (curve.breaks().len() - 1)).max(ROUND);
-            (0..count).map(|i| curve.point(i as f64 / count as f64)).collect()
+            let count = (2 * curve.points().len()).max(ROUND);
+            let on = |curve: ClosedSpline| {
+                (0..count).map(|i| curve.point(i as f64 / count as f64)).collect()
+            };
+            ClosedSpline::through(curve.points()).map_or_else(|_| Ring::new(), on)
         }
     };
     if doubled_area(&corners) < 0.0 { reversed(corners) } else { corners }

@@ -107,9 +107,10 @@ pub(super) mod tests {
 
     use nalgebra::{UnitVector3, Vector3};
 
-    use super::super::step::{EndCut, Loft, Outline, Saddle, Station};
+    use super::super::step::{EndCut, Loft, Saddle, Station};
     use super::*;
-    use crate::output::step::Freeform;
+    use crate::section::freeform::Freeform;
+    use crate::section::outline::Outline;
     use nalgebra::Point2;
 
     /// Whether every side of a triangle is met by exactly one other, run the other way.
@@ -206,7 +207,7 @@ pub(super) mod tests {
                 Point2::new(4.0 * cos + 0.4 * (3.0 * cos).sin(), 3.0 * sin)
             })
             .collect();
-        let outer = Outline::Freeform(Freeform::through(&points).unwrap());
+        let outer = Outline::Freeform(Freeform::through(points).unwrap());
         assert_like(Body::Loft(Loft::prism(outer, vec![], 50.0)), 0.003);
     }
 

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::error::BodyError;
+use super::error::{BodyError, positive};
 use super::facets::Facets;
 use super::loft::Loft;
-use super::outline::{Outline, positive};
+use crate::section::outline::Outline;
 
 /// The shape of a part, in its own coordinates, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,8 @@ impl Body {
     ///
     /// # Examples
     /// ```
-    /// # use beamwright::output::step::{Body, Loft, Outline};
+    /// # use beamwright::output::step::{Body, Loft};
+    /// # use beamwright::section::outline::Outline;
     /// # use nalgebra::Vector3;
     /// // A mitre through the axis takes away as much as it leaves.
     /// let bar = Loft::prism(Outline::circle(5.0), vec![], 100.0);

@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Point2, Point3, Vector2};
 
 use super::error::BodyError;
-use super::levels::{Level, slope};
-use super::loft::{EndCut, Loft, MOST_OBLIQUE_DEGREES, Station};
-use super::outline::Outline;
-use super::piece::SHORTEST;
+use super::levels::{Level, Levels, slope};
+use super::loft::{EndCut, Loft, Station};
+use super::tolerance::{MOST_OBLIQUE_DEGREES, SHORTEST};
 use crate::saddle::Saddle;
+use crate::section::outline::Outline;
 
 /// Places around the beam at which its two ends are held against each other.
 const AROUND: usize = 64;
@@ -87,14 +87,23 @@ impl End {
 }
 
 impl Coped {
+    /// A loft as a beam with saddles, if it has any.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(super) fn of(loft: &Loft) -> Option<Result<Self, BodyError>> {
+        let has_saddle = [&loft.start, &loft.end].iter().any(|e| matches!(e, EndCut::Saddle(_)));
+        has_saddle.then(|| Self::new(loft))
+    }
+
     /// The beam, if a loft with a saddle is one.
     ///
     /// # Errors
     /// If the loft is no solid even with square ends, if its section is not round about the axis
     /// and constant, or thicker than its members, or if its ends cross.
-    pub(super) fn new(loft: &Loft) -> Result<Self, BodyError> {
+    fn new(loft: &Loft) -> Result<Self, BodyError> {
         let square = Loft { start: EndCut::Square, end: EndCut::Square, ..loft.clone() };
-        square.levels()?;
+        Levels::new(&square)?;
         let no_bar = BodyError::NoSaddle { why: "it is no round bar or tube of constant section" };
         let Some(radii) = radii(&loft.stations[0]) else { return Err(no_bar) };
         let is_constant = loft.stations.iter().all(|s| self::radii(s).as_ref() == Some(&radii));
@@ -218,11 +227,9 @@ mod tests {
         let on = |radius: f64, loft: Loft| {
             Body::Loft(Loft { end: saddle(Vector3::x(), radius, true), ..loft }).volume()
         };
-        let flat = Loft::prism(
-            Outline::Path(super::super::Path::rectangle(4.0, 3.0).unwrap()),
-            vec![],
-            50.0,
-        );
+        let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)];
+        let corners = corners.map(|(x, y)| Point2::new(x, y));
+        let flat = Loft::prism(Outline::polygon(&corners), vec![], 50.0);
         assert!(on(6.0, tube()).is_ok() && on(5.0, tube()).is_ok());
         for refused in [on(4.9, tube()), on(5.001, tube()), on(6.0, flat)] {
             assert!(matches!(refused, Err(BodyError::NoSaddle { .. })), "{refused:?}");

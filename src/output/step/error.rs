@@ -121,7 +121,7 @@ pub enum BodyError {
     /// An end cut runs nearly along the beam.
     #[error(
         "the cut at the {end} is {degrees:.1}° off square; at most {most}° can be made",
-        most = super::loft::MOST_OBLIQUE_DEGREES
+        most = super::tolerance::MOST_OBLIQUE_DEGREES
     )]
     TooOblique {
         /// `"start"` or `"end"`.
@@ -185,4 +185,15 @@ pub enum BodyError {
         /// The volume.
         volume: f64,
     },
+}
+
+/// Refuses what is not a positive finite number.
+pub(super) fn positive(what: &'static str, value: f64) -> Result<(), BodyError> {
+    if !value.is_finite() {
+        Err(BodyError::NotFinite { what })
+    } else if value <= 0.0 {
+        Err(BodyError::NotPositive { what, value })
+    } else {
+        Ok(())
+    }
 }

@@ -8,8 +8,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point3, Vector3};
 
-use super::error::BodyError;
-use super::outline::positive;
+use super::error::{BodyError, positive};
 
 /// How far a corner may lie off the plane of its face, relative to the size of
 /// the solid: single-precision coordinates, merged and moved, stay below it.

@@ -9,10 +9,12 @@
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
 use super::error::BodyError;
-use super::loft::{Between, EndCut, Loft, MOST_OBLIQUE_DEGREES};
-use super::piece::{Arc, Piece, SAME, Sample};
-use super::sections::{Ring, common_rings, heights};
+use super::loft::{Between, EndCut, Loft};
+use super::piece::{Arc, Piece, Sample};
+use super::ring::Ring;
+use super::sections::{common_rings, heights};
 use super::side::{Side, flat_side, is_between};
+use super::tolerance::{MOST_OBLIQUE_DEGREES, SAME};
 
 /// The plane z = height + slope·(x, y).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -24,17 +24,8 @@
 
 use nalgebra::Vector3;
 
-use super::coped::Coped;
-use super::error::BodyError;
-use super::levels::Levels;
-use super::outline::Outline;
-use super::piece::Piece;
 use crate::saddle::Saddle;
-
-/// Largest angle between an end cut and a square one.
-///
-/// At 80° the cut face is already 5.8 times as long as the beam is thick.
-pub(super) const MOST_OBLIQUE_DEGREES: f64 = 80.0;
+use crate::section::outline::Outline;
 
 /// A beam along +z.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,48 +105,5 @@ impl Loft {
     /// The same beam with its ends cut in planes of the given normals.
     pub fn cut(self, start: Vector3<f64>, end: Vector3<f64>) -> Self {
         Self { start: EndCut::Plane { normal: start }, end: EndCut::Plane { normal: end }, ..self }
-    }
-
-    /// Volume, mm³, by integration over the exact surface.
-    ///
-    /// # Errors
-    /// If the loft is not a solid.
-    pub fn volume(&self) -> Result<f64, BodyError> {
-        match self.coped() {
-            Some(coped) => coped.map(|c| c.volume()),
-            None => self.levels()?.volume(),
-        }
-    }
-
-    /// Area of the outside between the cuts, without bores, mm²: what is painted.
-    ///
-    /// # Errors
-    /// If the loft is not a solid.
-    pub fn skin(&self) -> Result<f64, BodyError> {
-        match self.coped() {
-            Some(coped) => coped.map(|c| c.skin()),
-            None => Ok(self.levels()?.skin()),
-        }
-    }
-
-    /// The beam as one with saddles, if it has any.
-    pub(super) fn coped(&self) -> Option<Result<Coped, BodyError>> {
-        let has_saddle = [&self.start, &self.end].iter().any(|e| matches!(e, EndCut::Saddle(_)));
-        has_saddle.then(|| Coped::new(self))
-    }
-
-    pub(super) fn levels(&self) -> Result<Levels, BodyError> {
-        Levels::new(self)
-    }
-}
-
-impl Station {
-    /// The rings of the station: outside counter-clockwise, holes clockwise.
-    pub(super) fn rings(&self) -> Result<Vec<Vec<Piece>>, BodyError> {
-        let mut rings = vec![self.outer.ring()?];
-        for hole in &self.holes {
-            rings.push(super::outline::reversed(&hole.ring()?));
-        }
-        Ok(rings)
     }
 }

@@ -4,17 +4,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Point2, Vector2};
 
-use super::freeform::Freeform;
+use super::closed_spline::ClosedSpline;
 use super::gauss;
-
-/// Shortest edge that is written, in mm.
-///
-/// Kernels based on Parasolid tell points apart from 1e-5 mm on, OCCT from
-/// 1e-7 mm on; a shorter edge would come back as an invalid solid.
-pub const SHORTEST: f64 = 1e-5;
-
-/// How far two measures may differ, relative to their size, and count as equal.
-pub(super) const SAME: f64 = 1e-12;
+use super::tolerance::SAME;
 
 /// One smooth piece of an outline.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +16,7 @@ pub(super) enum Piece {
     /// `centre + p cos θ + q sin θ` for θ from 0 to `sweep`, which is positive.
     Arc(Arc),
     /// A closed freeform curve; the only piece of its outline.
-    Spline(Freeform),
+    Spline(ClosedSpline),
 }
 
 /// An elliptic arc by two conjugate half-diameters; a circle if p ⟂ q, |p| = |q|.
@@ -142,7 +134,7 @@ impl Piece {
             }
             Self::Spline(curve) => curve
                 .spans()
-                .flat_map(|b| gauss::FIVE.iter().map(move |(u, _)| Freeform::bezier_at(&b, *u)))
+                .flat_map(|b| gauss::FIVE.iter().map(move |(u, _)| ClosedSpline::bezier_at(&b, *u)))
                 .collect(),
         }
     }
@@ -180,7 +172,7 @@ impl Piece {
                 (0..count as usize).map(at).collect()
             }
             Self::Spline(curve) => {
-                curve.spans().flat_map(|b| [b[0], Freeform::bezier_at(&b, 0.5).0]).collect()
+                curve.spans().flat_map(|b| [b[0], ClosedSpline::bezier_at(&b, 0.5).0]).collect()
             }
         }
     }
@@ -208,21 +200,4 @@ pub(super) fn signed_area(pieces: &[Piece]) -> f64 {
         terms.map(|((at, along), w)| w * (at - origin).perp(&along)).sum()
     };
     0.5 * pieces.iter().map(part).sum::<f64>()
-}
-
-/// Centroid of the area inside a closed chain of pieces.
-///
-/// About the start of the chain: x̄ = ∮ x · ½(x dy − y dx) · ⅔ / A, and so for y.
-pub(super) fn centroid(pieces: &[Piece]) -> Point2<f64> {
-    let Some(origin) = pieces.first().map(Piece::start) else { return Point2::origin() };
-    let (mut twice_area, mut moment) = (0.0, Vector2::zeros());
-    for piece in pieces {
-        for ((at, along), weight) in piece.samples().into_iter().zip(piece.weights()) {
-            let arm = at - origin;
-            let sector = weight * arm.perp(&along);
-            twice_area += sector;
-            moment += arm * sector;
-        }
-    }
-    origin + moment * (2.0 / 3.0) / twice_area
 }

@@ -1,13 +1,12 @@
 //! The sections of a loft, checked and brought to common pieces.
 
+use super::closed_spline::ClosedSpline;
 use super::crossing::{encloses, first_crossing};
 use super::error::BodyError;
-use super::freeform::Freeform;
 use super::loft::Station;
-use super::piece::{Piece, SHORTEST};
-
-/// One closed outline: counter-clockwise outside, clockwise as a hole.
-pub(super) type Ring = Vec<Piece>;
+use super::piece::Piece;
+use super::ring::{Ring, reversed, ring};
+use super::tolerance::SHORTEST;
 
 /// Checked heights of the stations.
 pub(super) fn heights(stations: &[Station]) -> Result<Vec<f64>, BodyError> {
@@ -58,7 +57,10 @@ fn same_section(a: &Station, b: &Station) -> bool {
 
 /// The rings of a station, with its holes inside and apart from each other.
 fn clear_rings(station: usize, section: &Station) -> Result<Vec<Ring>, BodyError> {
-    let rings = section.rings()?;
+    let mut rings = vec![ring(&section.outer)?];
+    for hole in &section.holes {
+        rings.push(reversed(&ring(hole)?));
+    }
     for (hole, ring) in rings.iter().enumerate().skip(1) {
         let fault = Err(BodyError::HoleOutside { station, hole: hole - 1 });
         if let ([Piece::Arc(outer)], [Piece::Arc(inner)]) = (&rings[0][..], &ring[..])
@@ -88,7 +90,7 @@ fn clear_rings(station: usize, section: &Station) -> Result<Vec<Ring>, BodyError
 
 /// Refines freeform outlines to common breaks.
 fn share_breaks(ring: &mut [Ring]) {
-    let curves: Vec<&Freeform> = ring
+    let curves: Vec<&ClosedSpline> = ring
         .iter()
         .filter_map(|pieces| match &pieces[..] {
             [Piece::Spline(curve)] => Some(curve),

@@ -1,6 +1,7 @@
 //! Which surface connects two pieces of neighbouring sections.
 
-use super::piece::{Piece, SAME};
+use super::piece::Piece;
+use super::tolerance::SAME;
 
 /// What surface connects two pieces of neighbouring stations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

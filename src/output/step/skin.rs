@@ -4,8 +4,24 @@
 //! cylinders and cones, and to seven digits or more for sides that turn on their way.
 
 use super::blend::Blend;
+use super::coped::Coped;
+use super::error::BodyError;
 use super::gauss;
 use super::levels::Levels;
+use super::loft::Loft;
+
+impl Loft {
+    /// Area of the outside between the cuts, without bores, mm²: what is painted.
+    ///
+    /// # Errors
+    /// If the loft is not a solid.
+    pub fn skin(&self) -> Result<f64, BodyError> {
+        match Coped::of(self) {
+            Some(coped) => coped.map(|c| c.skin()),
+            None => Ok(Levels::new(self)?.skin()),
+        }
+    }
+}
 
 impl Levels {
     /// Area of the outside, its ends left out, mm².
@@ -33,7 +49,8 @@ mod tests {
 
     use nalgebra::{Point2, Vector3};
 
-    use crate::output::step::{Loft, Outline, Path};
+    use super::*;
+    use crate::section::outline::Outline;
 
     #[track_caller]
     fn assert_near(loft: &Loft, meant: f64) {
@@ -42,7 +59,8 @@ mod tests {
     }
 
     fn rectangle(b: f64, h: f64) -> Outline {
-        Outline::Path(Path::rectangle(b, h).unwrap())
+        let corners = [(-b, -h), (b, -h), (b, h), (-b, h)];
+        Outline::polygon(&corners.map(|(x, y)| Point2::new(0.5 * x, 0.5 * y)))
     }
 
     #[test]

@@ -12,13 +12,28 @@
 use nalgebra::{Point3, Vector3};
 
 use super::blend::{Blend, Samples, Tangents};
+use super::coped::Coped;
 use super::error::BodyError;
 use super::gauss;
 use super::levels::Levels;
+use super::loft::Loft;
 use super::piece::signed_area;
 
 /// Simpson's rule: exact for the ruled sides, and looks at mid-span.
 const SIMPSON: [(f64, f64); 3] = [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)];
+
+impl Loft {
+    /// Volume, mm³, by integration over the exact surface.
+    ///
+    /// # Errors
+    /// If the loft is not a solid.
+    pub fn volume(&self) -> Result<f64, BodyError> {
+        match Coped::of(self) {
+            Some(coped) => coped.map(|c| c.volume()),
+            None => Levels::new(self)?.volume(),
+        }
+    }
+}
 
 impl Levels {
     /// Volume, mm³.

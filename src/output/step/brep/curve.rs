@@ -6,7 +6,7 @@ use nalgebra::{Point2, Point3, UnitVector3, Vector2, Vector3};
 use truck_modeling::{BSplineCurve, KnotVec, NurbsCurve, Vector4};
 
 use super::{Axes, Conic, Curve};
-use crate::output::step::freeform::Freeform;
+use crate::output::step::closed_spline::ClosedSpline;
 use crate::output::step::levels::Level;
 use crate::output::step::piece::{Arc, Piece};
 
@@ -139,7 +139,7 @@ pub(super) fn lifted_nurbs(piece: &Piece, level: &Level) -> NurbsCurve<Vector4> 
     }
 }
 
-fn lifted_spline(curve: &Freeform, level: &Level) -> NurbsCurve<Vector4> {
+fn lifted_spline(curve: &ClosedSpline, level: &Level) -> NurbsCurve<Vector4> {
     let lift = |p: &Point2<f64>| homogeneous(&level.lift(p), 1.0);
     let points = curve.control_points().iter().map(lift).collect();
     NurbsCurve::new(BSplineCurve::new(KnotVec::from(curve.knots()), points))

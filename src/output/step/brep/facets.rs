@@ -114,7 +114,7 @@ impl<'a> Builder<'a> {
         }
         let (from, to) = (&self.vertices[key.0 as usize], &self.vertices[key.1 as usize]);
         let length = (to.point() - from.point()).norm();
-        if length < crate::output::step::piece::SHORTEST {
+        if length < crate::output::step::tolerance::SHORTEST {
             return Err(BodyError::TinyEdge { piece: face, length });
         }
         let edge = Edge::new_unchecked(from, to, Curve::Line);

@@ -19,9 +19,10 @@ use super::curve::{lifted, lifted_nurbs};
 use super::{Axes, Conic, Curve, Edge, Face, Skin, Solid, Surface, Vertex, Wire, face, solid_of};
 use crate::output::step::error::BodyError;
 use crate::output::step::levels::{Level, Levels};
-use crate::output::step::piece::{Arc, Piece, SAME};
+use crate::output::step::piece::{Arc, Piece};
 use crate::output::step::side::Side;
 use crate::output::step::spline::clamped_ordinates;
+use crate::output::step::tolerance::SAME;
 
 /// One ring at one station: piece `j` runs along edge `j` from corner `j`.
 struct RingEdges {

@@ -21,7 +21,9 @@ use nalgebra::{Point3, UnitVector3, Vector3};
 use truck_modeling::{NurbsCurve, NurbsSurface, Vector4};
 
 use super::body::Body;
+use super::coped::Coped;
 use super::error::BodyError;
+use super::levels::Levels;
 
 pub(super) type Vertex = truck_topology::Vertex<Point3<f64>>;
 pub(super) type Edge = truck_topology::Edge<Point3<f64>, Curve>;
@@ -113,11 +115,11 @@ impl Axes {
 pub(super) fn build(body: &Body) -> Result<(f64, Solid), BodyError> {
     match body {
         Body::Loft(loft) => {
-            if let Some(coped) = loft.coped() {
+            if let Some(coped) = Coped::of(loft) {
                 let coped = coped?;
                 return Ok((coped.volume(), coped::solid(&coped)?));
             }
-            let levels = loft.levels()?;
+            let levels = Levels::new(loft)?;
             Ok((levels.volume()?, loft::solid(&levels)?))
         }
         Body::Sphere { radius } => Ok((body.volume()?, sphere(*radius)?)),

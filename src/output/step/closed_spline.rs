@@ -6,13 +6,14 @@
 //! written to the file: as a clamped cubic B-spline with simple inner knots.
 //! To keep files small, parameters are rounded to ten decimals before the
 //! spline is solved, and control points to eleven digits after it: the area is
-//! that of the spline through the given points to about 1e-10.  What is exposed
-//! here, is drawn, and is integrated is that same rounded curve.
+//! that of the spline through the given points ([`Freeform`](crate::section::Freeform))
+//! to about 1e-10.  What is drawn and integrated is that same rounded curve.
 
 use nalgebra::{Point2, Vector2};
 
 use super::error::BodyError;
 use super::spline::{clamped_ordinates, closed_second_derivatives};
+use super::tolerance::SHORTEST;
 
 /// Decimals of a parameter.
 const DECIMALS: i32 = 10;
@@ -29,52 +30,20 @@ const SAME_BREAK: f64 = 3e-10;
 /// Invariant: breaks ascend from 0 to 1; there are two more control points
 /// than breaks; the last control point is the first.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Freeform {
+pub(crate) struct ClosedSpline {
     breaks: Vec<f64>,
     control: Vec<Point2<f64>>,
 }
 
-impl Freeform {
+impl ClosedSpline {
     /// Lays the curve through points given in order around the outline.
     ///
     /// # Errors
     /// With fewer than three points, with two equal points in a row, or with a
     /// coordinate that is not finite.
-    ///
-    /// # Examples
-    /// ```
-    /// # use beamwright::output::step::Freeform;
-    /// # use nalgebra::Point2;
-    /// let points = [(5.0, 0.0), (0.0, 5.0), (-5.0, 0.0), (0.0, -5.0)].map(|(x, y)| Point2::new(x, y));
-    /// let curve = Freeform::through(&points)?;
-    /// assert!((curve.point(0.25) - points[1]).norm() < 1e-7);
-    /// assert_eq!(curve.spans().count(), 4);
-    /// # Ok::<(), beamwright::output::step::BodyError>(())
-    /// ```
-    pub fn through(points: &[Point2<f64>]) -> Result<Self, BodyError> {
+    pub(crate) fn through(points: &[Point2<f64>]) -> Result<Self, BodyError> {
         let parameters = rounded(&chord_fractions(points)?);
         Ok(Self::interpolate(&parameters, points))
-    }
-
-    /// Lays a curve through each row of points, all over the same parameters.
-    ///
-    /// Outlines of one loft are best made together: curves over the same
-    /// parameters connect control point by control point, while curves over
-    /// different ones first have to be refined to the union of their knots.
-    ///
-    /// # Errors
-    /// As [`through`](Self::through), and if the rows differ in length.
-    pub fn through_alike(rows: &[Vec<Point2<f64>>]) -> Result<Vec<Self>, BodyError> {
-        let all = rows.iter().map(|row| chord_fractions(row)).collect::<Result<Vec<_>, _>>()?;
-        let Some(first) = all.first() else { return Ok(Vec::new()) };
-        if let Some(station) = all.iter().position(|row| row.len() != first.len()) {
-            return Err(BodyError::UnlikeOutlines { station });
-        }
-        let mean: Vec<f64> = (0..first.len())
-            .map(|i| all.iter().map(|row| row[i]).sum::<f64>() / all.len() as f64)
-            .collect();
-        let parameters = rounded(&mean);
-        Ok(rows.iter().map(|row| Self::interpolate(&parameters, row)).collect())
     }
 
     /// Solves the periodic spline over `breaks`, one more than points.
@@ -98,17 +67,17 @@ impl Freeform {
     }
 
     /// Parameters where one cubic span ends and the next begins, from 0 to 1.
-    pub fn breaks(&self) -> &[f64] {
+    pub(super) fn breaks(&self) -> &[f64] {
         &self.breaks
     }
 
     /// Control points on the clamped [`knots`](Self::knots).
-    pub fn control_points(&self) -> &[Point2<f64>] {
+    pub(super) fn control_points(&self) -> &[Point2<f64>] {
         &self.control
     }
 
     /// The full knot vector: the breaks, with the first and last four times.
-    pub fn knots(&self) -> Vec<f64> {
+    pub(super) fn knots(&self) -> Vec<f64> {
         let n = self.breaks.len();
         (0..n + 6).map(|i| self.knot(i)).collect()
     }
@@ -118,7 +87,7 @@ impl Freeform {
     }
 
     /// The cubic spans in order, each as its four Bézier points.
-    pub fn spans(&self) -> impl Iterator<Item = [Point2<f64>; 4]> + '_ {
+    pub(super) fn spans(&self) -> impl Iterator<Item = [Point2<f64>; 4]> + '_ {
         self.breaks.windows(2).enumerate().map(|(i, w)| {
             let (a, b) = (w[0], w[1]);
             [[a, a, a], [a, a, b], [a, b, b], [b, b, b]].map(|at| self.blossom(i, at))
@@ -126,7 +95,7 @@ impl Freeform {
     }
 
     /// The point at a parameter of `[0, 1]`.
-    pub fn point(&self, t: f64) -> Point2<f64> {
+    pub(crate) fn point(&self, t: f64) -> Point2<f64> {
         let after = self.breaks.partition_point(|&b| b <= t);
         self.blossom(after.clamp(1, self.breaks.len() - 1) - 1, [t; 3])
     }
@@ -208,7 +177,7 @@ fn chord_fractions(points: &[Point2<f64>]) -> Result<Vec<f64>, BodyError> {
     let mut reached = vec![0.0];
     for (i, p) in points.iter().enumerate() {
         let length = (points[(i + 1) % points.len()] - p).norm();
-        if length < super::piece::SHORTEST {
+        if length < SHORTEST {
             return Err(BodyError::TinyEdge { piece: i, length });
         }
         reached.push(reached[i] + length);
@@ -260,7 +229,7 @@ mod tests {
     #[test]
     fn curve_passes_through_its_points_in_order() {
         let points = wavy(17, 0.3);
-        let curve = Freeform::through(&points).unwrap();
+        let curve = ClosedSpline::through(&points).unwrap();
         for (t, p) in curve.breaks().iter().zip(&points) {
             assert!((curve.point(*t) - p).norm() < 1e-6);
         }
@@ -268,7 +237,7 @@ mod tests {
 
     #[test]
     fn curve_is_smooth_where_it_closes() {
-        let curve = Freeform::through(&wavy(12, 1.0)).unwrap();
+        let curve = ClosedSpline::through(&wavy(12, 1.0)).unwrap();
         let spans: Vec<_> = curve.spans().collect();
         let h = |i: usize| curve.breaks()[i + 1] - curve.breaks()[i];
         let end = (spans[11][3] - spans[11][2]) / h(11);
@@ -279,7 +248,7 @@ mod tests {
     #[test]
     fn refining_does_not_move_the_curve() {
         let (a, b) = (wavy(9, 0.0), wavy(11, 2.0));
-        let (a, b) = (Freeform::through(&a).unwrap(), Freeform::through(&b).unwrap());
+        let (a, b) = (ClosedSpline::through(&a).unwrap(), ClosedSpline::through(&b).unwrap());
         let refined = a.refined(&b);
         assert!(refined.breaks().len() > a.breaks().len());
         assert_eq!(refined.control_points().len(), refined.breaks().len() + 2);
@@ -291,7 +260,7 @@ mod tests {
 
     #[test]
     fn reversed_curve_has_the_same_points() {
-        let a = Freeform::through(&wavy(9, 0.0)).unwrap();
+        let a = ClosedSpline::through(&wavy(9, 0.0)).unwrap();
         let r = a.reversed();
         for i in 0..=50 {
             let t = f64::from(i) / 50.0;
@@ -303,7 +272,7 @@ mod tests {
     fn equal_neighbours_are_refused() {
         let mut points = wavy(8, 0.0);
         points[3] = points[2];
-        let fault = Freeform::through(&points).unwrap_err();
+        let fault = ClosedSpline::through(&points).unwrap_err();
         assert!(matches!(fault, BodyError::TinyEdge { piece: 2, .. }));
     }
 
