@@ -8,7 +8,7 @@ use super::measured::mean_contour;
 use super::pieces::{Making, Piece};
 use super::volume::{is_in, spread};
 use crate::mesh::Shadow;
-use crate::section::properties::signed_area;
+use crate::section::contours::signed_area;
 
 /// Part of its volume from which on a branch sticks out too far.
 const MOST_OUTSIDE: f64 = 0.08;

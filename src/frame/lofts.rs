@@ -12,12 +12,13 @@ use std::collections::BTreeMap;
 use super::beam_section::BeamSection;
 use super::moments::Moments;
 use super::params::ProfileParams;
-use super::profiles::EQUAL;
 use super::shape::{Loft, ShapeStation};
 use super::{Beam, Frame};
 use crate::section::catalogue::Catalogue;
-use crate::section::matching::{MatchError, MatchTarget, ProfileChoice, equalize, match_profile};
-use crate::section::properties::Contours;
+use crate::section::contours::Contours;
+use crate::section::matching::{
+    MEANT_EQUAL, MatchError, MatchTarget, ProfileChoice, equalize, match_profile,
+};
 use crate::section::{Profile, Shape};
 
 /// A place along a beam, and what is to stand there.
@@ -46,7 +47,7 @@ pub(super) fn shape(
     for places in alike(places(frame, group, params.loft)).into_values() {
         let targets: Vec<(MatchTarget, f64)> =
             places.iter().map(|p| (p.target.clone(), 1.0)).collect();
-        let equal = equalize(&targets, EQUAL);
+        let equal = equalize(&targets, MEANT_EQUAL);
         let profiles: Vec<Profile> = equal
             .targets
             .iter()

@@ -5,9 +5,10 @@ use nalgebra::{Point2, Rotation2};
 use super::beam_section::BeamSection;
 use super::beam_station::BeamStation;
 use crate::section::MatchTarget;
+use crate::section::contours::Contours;
 use crate::section::freeform::average_outline;
 use crate::section::matching::{facets, worn};
-use crate::section::properties::{Contours, SectionProperties};
+use crate::section::properties::SectionProperties;
 
 /// Points of an averaged contour: a round one is followed within a thousandth of its radius.
 const OUTLINE_POINTS: usize = 48;

@@ -15,13 +15,9 @@ use crate::observer::Observer;
 use crate::section::Profile;
 use crate::section::catalogue::Catalogue;
 use crate::section::matching::{
-    Equalized, MatchError, MatchTarget, Matched, ProfileChoice, Requirement, equalize,
-    fewest_profiles_watched, match_profile,
+    Equalized, FewProfiles, MEANT_EQUAL, MatchError, MatchTarget, Matched, ProfileChoice,
+    Requirement, equalize, match_profile,
 };
-
-/// Sections and lengths that agree within this part are meant to be equal. The two halves of a
-/// mirrored voxel part agree within half of it, struts that were designed to differ do not.
-pub(super) const EQUAL: f64 = 0.02;
 
 /// Worst error of I₁ or I₂ that goes without a finding.
 const POOR_MATCH: f64 = 0.25;
@@ -62,7 +58,7 @@ fn keep_on(observer: &mut impl Observer) -> Result<(), MatchError> {
 /// The measured beams, as good as equal ones together.
 fn groups(frame: &Frame) -> Equalized {
     let measured = frame.beams.iter().filter_map(|b| Some((b.measured.clone()?, b.length)));
-    equalize(&measured.collect::<Vec<_>>(), EQUAL)
+    equalize(&measured.collect::<Vec<_>>(), MEANT_EQUAL)
 }
 
 /// Gives every beam the shape that its group was matched to.
@@ -160,10 +156,16 @@ fn reduce(
     for &group in &groups.group_of {
         requirements[group].length += groups.lengths[group];
     }
-    let ProfileParams { choice, mode, .. } = params;
+    let wanted = FewProfiles {
+        requirements: &requirements,
+        matched: &distinct,
+        max,
+        choice: &params.choice,
+        mode: params.mode,
+        catalogue,
+    };
     let keep_on = &mut || keep_on(observer);
-    let found =
-        fewest_profiles_watched(&requirements, &distinct, max, choice, *mode, catalogue, keep_on)?;
+    let found = wanted.choose_watched(keep_on)?;
     for (i, m) in matched.iter_mut().enumerate() {
         keep_on()?;
         let profile = found.profiles[found.profile_of[i]].clone();

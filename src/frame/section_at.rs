@@ -8,7 +8,7 @@ use super::moments::Moments;
 use crate::mesh::Surface;
 use crate::mesh::contour::{Extent, Plane, contour_round};
 use crate::observer::Observer;
-use crate::section::properties::Contours;
+use crate::section::contours::Contours;
 use crate::section::{SectionError, SectionProperties};
 use crate::skeleton::{PointKind, Skeleton};
 

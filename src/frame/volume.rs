@@ -17,7 +17,7 @@ use nalgebra::{Point2, Point3};
 use super::beam_axes::BeamAxes;
 use super::{Beam, BeamShape, Frame};
 use crate::mesh::{Shadow, TriangleTree};
-use crate::section::properties::{Contours, signed_area};
+use crate::section::contours::{Contours, signed_area};
 
 /// Volumes of one beam from node to node, mm³.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

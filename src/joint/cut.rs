@@ -7,8 +7,8 @@ use nalgebra::{Point2, Unit, Vector2, Vector3};
 use super::{LEAST_LEFT, PER_QUARTER};
 use crate::frame::Beam;
 use crate::saddle::Saddle;
+use crate::section::contours::Contours;
 use crate::section::outline::Outline;
-use crate::section::properties::Contours;
 
 /// How an end of a beam is cut: in a plane, or along the side of a round member.
 #[derive(Clone, Copy, Debug, PartialEq)]

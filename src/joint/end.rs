@@ -5,8 +5,8 @@ use nalgebra::{Unit, Vector3};
 use super::PER_QUARTER;
 use super::cut::round;
 use crate::frame::{Beam, BeamAxes, Frame};
+use crate::section::contours::Contours;
 use crate::section::outline::Outline;
-use crate::section::properties::Contours;
 
 /// A beam at a node.
 pub(super) struct End {

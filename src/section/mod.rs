@@ -13,6 +13,7 @@
 //!
 //! | module         | what it finds or makes                                         | thesis  |
 //! |----------------|----------------------------------------------------------------|---------|
+//! | [`contours`]   | regions bounded by polygons, as they are measured              |         |
 //! | [`properties`] | area, centroid, second moments, principal axes of contours     | §5.2.3  |
 //! | [`torsion`]    | torsion constant J of any contours                             |         |
 //! | [`outline`]    | lines, arcs and splines that bound a profile                   |         |
@@ -33,9 +34,11 @@
 //!   §5.2.3.
 
 pub mod catalogue;
+pub mod contours;
 pub mod error;
 pub mod freeform;
 pub mod matching;
+mod moments;
 pub mod outline;
 mod piece;
 pub mod profile;
@@ -44,9 +47,10 @@ mod rays;
 pub mod torsion;
 
 pub use catalogue::Catalogue;
+pub use contours::Contours;
 pub use error::SectionError;
 pub use freeform::Freeform;
 pub use matching::{MatchMode, MatchTarget, Matched, ProfileChoice, match_profile};
 pub use outline::{Outline, Path, Region, Segment};
 pub use profile::{Designation, Moduli, Profile, Shape};
-pub use properties::{Contours, SectionProperties};
+pub use properties::SectionProperties;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
 
-use super::properties::sides;
+use super::contours::sides;
 
 /// Distances, ascending, at which a ray from `centre` crosses a polygon.
 ///
@@ -155,8 +155,8 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
+    use crate::section::contours::Contours;
     use crate::section::outline::{Outline, Region};
-    use crate::section::properties::Contours;
 
     fn circle(radius: f64) -> Contours {
         Contours::of_region(&Region::solid(Outline::circle(radius)), 90)

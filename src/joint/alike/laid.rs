@@ -9,8 +9,8 @@ use super::SAME_PIECE;
 use crate::frame::Beam;
 use crate::joint::cut::{rise, slopes};
 use crate::joint::{CutBeam, PER_QUARTER};
+use crate::section::contours::Contours;
 use crate::section::outline::{Outline, Region};
-use crate::section::properties::Contours;
 use crate::segment::distance;
 
 /// Farthest two outlines may lie from each other, in section radii: a tenth of [`SAME_PIECE`],

@@ -8,7 +8,7 @@ use crate::frame::shape::BeamShape;
 use crate::frame::{Beam, BeamAxes, BeamSection, Node, NodeId, NodeKind};
 use crate::joint::{EndCut, PER_QUARTER};
 use crate::saddle::Saddle;
-use crate::section::properties::Contours;
+use crate::section::contours::Contours;
 use crate::section::{Profile, Shape};
 
 /// A beam of 100 mm or so along z, its section axes those of the model, and its cuts by their

@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use crate::output::part21::{Fault, Id, List, Part21, Real, Text};
-use crate::section::properties::Contours;
+use crate::section::contours::Contours;
 use crate::section::{Profile, Shape};
 
 /// Points on a quarter of a freeform outline.

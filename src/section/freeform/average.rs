@@ -15,9 +15,10 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix2, Point2, Rotation2, Vector2};
 
 use super::Freeform;
+use crate::section::contours::{Contours, sides, signed_area};
 use crate::section::error::SectionError;
+use crate::section::moments::Moments;
 use crate::section::outline::Outline;
-use crate::section::properties::{Contours, Moments, sides, signed_area};
 use crate::section::rays::{Fan, Rays, crossings};
 
 /// Why contours have no mean outline.

@@ -108,8 +108,8 @@ mod tests {
     use nalgebra::{Point2, Vector2};
 
     use super::*;
+    use crate::section::contours::Contours;
     use crate::section::profile::Shape;
-    use crate::section::properties::Contours;
 
     fn family(target: &MatchTarget) -> &'static str {
         simplest(target, MatchMode::Stiffness).unwrap().profile.shape.family()

@@ -3,6 +3,10 @@
 use super::MatchTarget;
 use crate::cluster;
 
+/// Sections and lengths that agree within this part are meant to be equal. The two halves of a
+/// mirrored voxel part agree within half of it, struts that were designed to differ do not.
+pub const MEANT_EQUAL: f64 = 0.02;
+
 /// Which beams are equal, and what stands for each group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equalized {
@@ -19,7 +23,7 @@ pub struct Equalized {
 /// Groups beams whose A, I_1, I_2, J and length all agree within a relative tolerance.
 ///
 /// * `beams`: section and length in mm of each beam.
-/// * `tolerance`: largest relative difference between any two beams of a group, such as 0.05.
+/// * `tolerance`: largest relative difference between any two beams of a group, such as [`MEANT_EQUAL`].
 ///   Second moments and J grow with the fourth power of a size, so that of them twice as much is
 ///   allowed as of area and length.
 ///
@@ -27,16 +31,17 @@ pub struct Equalized {
 /// joined from the nearest on, which makes the groups independent of the order of the beams but
 /// for exact ties.
 pub fn equalize(beams: &[(MatchTarget, f64)], tolerance: f64) -> Equalized {
-    let rows: Vec<[f64; 5]> = beams.iter().map(|(target, length)| row(target, *length)).collect();
+    let rows: Vec<[f64; 5]> =
+        beams.iter().map(|(t, length)| row([t.area, t.i_1, t.i_2, t.j], *length)).collect();
     let limit = tolerance.max(0.0).ln_1p();
     let distance = |a: usize, b: usize| Some(difference(&rows[a], &rows[b]));
     summary(beams, &rows, &cluster::groups(rows.len(), distance, limit, limit))
 }
 
-/// Logarithms of the five measures, halved for the fourth powers.
-fn row(target: &MatchTarget, length: f64) -> [f64; 5] {
-    let moments = [target.i_1, target.i_2, target.j].map(|i| 0.5 * i.ln());
-    [target.area.ln(), moments[0], moments[1], moments[2], length.ln()]
+/// Logarithms of area, I_1, I_2, J and length, halved for the fourth powers.
+fn row([area, i_1, i_2, j]: [f64; 4], length: f64) -> [f64; 5] {
+    let moments = [i_1, i_2, j].map(|i| 0.5 * i.ln());
+    [area.ln(), moments[0], moments[1], moments[2], length.ln()]
 }
 
 fn difference(a: &[f64; 5], b: &[f64; 5]) -> f64 {
@@ -55,24 +60,13 @@ fn summary(beams: &[(MatchTarget, f64)], rows: &[[f64; 5]], members: &[Vec<usize
             group.iter().map(|&i| of(&beams[i])).sum::<f64>() / group.len() as f64
         };
         let length = mean(&|beam| beam.1);
-        let mut target = MatchTarget {
-            area: mean(&|beam| beam.0.area),
-            i_1: mean(&|beam| beam.0.i_1),
-            i_2: mean(&|beam| beam.0.i_2),
-            j: mean(&|beam| beam.0.j),
-            principal_angle: 0.0,
-            contours: None,
-            facets: None,
-            worn: None,
-        };
-        let middle = row(&target, length);
+        let [area, i_1] = [mean(&|beam| beam.0.area), mean(&|beam| beam.0.i_1)];
+        let [i_2, j] = [mean(&|beam| beam.0.i_2), mean(&|beam| beam.0.j)];
+        let middle = row([area, i_1, i_2, j], length);
         let off = |&&i: &&usize| difference(&rows[i], &middle);
         let nearest = group.iter().min_by(|a, b| off(a).total_cmp(&off(b))).copied();
         let nearest = nearest.unwrap_or(group[0]);
-        target.principal_angle = beams[nearest].0.principal_angle;
-        target.contours.clone_from(&beams[nearest].0.contours);
-        target.facets = beams[nearest].0.facets;
-        target.worn = beams[nearest].0.worn;
+        let target = MatchTarget { area, i_1, i_2, j, ..beams[nearest].0.clone() };
         group.iter().for_each(|&i| all.group_of[i] = all.targets.len());
         all.targets.push(target);
         all.lengths.push(length);

@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix2, Point2};
 
-use crate::section::properties::{Contours, sides};
+use crate::section::contours::{Contours, sides};
 
 /// Fewest and most sides. A bar of six sides is meant so, while one of seven is no product; 48
 /// facets take 0.3 % off the area, and nobody needs that back.
@@ -67,7 +67,7 @@ fn unstretched(contour: &[Point2<f64>]) -> Option<Vec<Point2<f64>>> {
     let inverse = spread.cholesky()?.l().try_inverse()?;
     let mut round: Vec<Point2<f64>> =
         contour.iter().map(|p| Point2::from(inverse * (p - centroid))).collect();
-    if crate::section::properties::signed_area(&round) < 0.0 {
+    if crate::section::contours::signed_area(&round) < 0.0 {
         round.reverse();
     }
     Some(round)

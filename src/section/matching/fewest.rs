@@ -9,14 +9,11 @@
 //! | a family    | sizes fitted to every beam, to every pair of beams, and to the beams that share a profile, until that costs no less (Lloyd, IEEE Trans. Inf. Theory 28, 1982) |
 //! | `auto`      | the same for every family that was matched                                     |
 //! | freeform    | every outline at every size                                                    |
-//!
-//! What several beams need together is, for `not-weaker`, the largest of each property; else the
-//! section whose logarithms of I_1 and I_2 are their geometric median, weighted by length
-//! (Weiszfeld, Tôhoku Math. J. 43, 1937), with the weighted mean logarithms of A and J.
 
 use super::fit::fitted;
 use super::reduce::{KeepOn, reduce_watched};
-use super::{MatchError, MatchMode, MatchTarget, ProfileChoice, Reduction, Requirement};
+use super::together::together;
+use super::{MatchError, MatchMode, ProfileChoice, Reduction, Requirement};
 use crate::section::catalogue::Catalogue;
 use crate::section::profile::{Profile, Shape};
 
@@ -26,20 +23,12 @@ const MOST_PAIRED: usize = 24;
 /// Times sizes are fitted to the beams that share a profile; five have been enough.
 const MOST_ROUNDS: usize = 20;
 
-/// Steps of the geometric median: it is found to a thousandth of the spread of its points.
-const MEDIAN_STEPS: usize = 50;
-
-/// Chooses at most `max` profiles for all beams, of all that `choice` allows.
-///
-/// * `matched`: the profile matched to each beam by itself.
-///
-/// # Errors
-/// As [`reduce_profiles`](super::reduce_profiles), and if a family is not in the catalogue.
+/// Beams that are to share profiles, and what these may be.
 ///
 /// # Examples
 /// ```
 /// # use beamwright::section::matching::{
-/// #     MatchMode, MatchTarget, ProfileChoice, Requirement, fewest_profiles };
+/// #     FewProfiles, MatchMode, MatchTarget, ProfileChoice, Requirement };
 /// # use beamwright::section::{Catalogue, Profile, Shape};
 /// let flats = [(10.0, 24.0), (16.0, 16.0)];
 /// let flats = flats.map(|(b, h)| Profile::new(Shape::Rectangle { b, h }).unwrap());
@@ -48,58 +37,71 @@ const MEDIAN_STEPS: usize = 50;
 ///     .map(|flat| MatchTarget::of_properties(&flat.properties().unwrap()))
 ///     .map(|target| Requirement { target, length: 100.0 })
 ///     .collect();
-/// let (choice, mode) = (ProfileChoice::Rectangle, MatchMode::NotWeaker);
-/// let one = fewest_profiles(&requirements, &flats, 1, &choice, mode, Catalogue::builtin())?;
+/// let wanted = FewProfiles {
+///     requirements: &requirements,
+///     matched: &flats,
+///     max: 1,
+///     choice: &ProfileChoice::Rectangle,
+///     mode: MatchMode::NotWeaker,
+///     catalogue: Catalogue::builtin(),
+/// };
 /// // Neither flat is as strong as the other; what both need is a third one.
-/// assert!(!flats.contains(&one.profiles[0]));
+/// assert!(!flats.contains(&wanted.choose()?.profiles[0]));
 /// # Ok::<(), beamwright::section::matching::MatchError>(())
 /// ```
-pub fn fewest_profiles(
-    requirements: &[Requirement],
-    matched: &[Profile],
-    max: usize,
-    choice: &ProfileChoice,
-    mode: MatchMode,
-    catalogue: &Catalogue,
-) -> Result<Reduction, MatchError> {
-    let keep_on = &mut || Ok(());
-    fewest_profiles_watched(requirements, matched, max, choice, mode, catalogue, keep_on)
+#[derive(Clone, Copy, Debug)]
+pub struct FewProfiles<'a> {
+    /// The beams.
+    pub requirements: &'a [Requirement],
+    /// The profile matched to each beam by itself.
+    pub matched: &'a [Profile],
+    /// Most profiles, 1 or more.
+    pub max: usize,
+    /// What the user allows.
+    pub choice: &'a ProfileChoice,
+    /// What counts.
+    pub mode: MatchMode,
+    /// Where the families of a catalogue are looked up.
+    pub catalogue: &'a Catalogue,
 }
 
-/// The same, unless `keep_on` asks to stop.
-pub(crate) fn fewest_profiles_watched(
-    requirements: &[Requirement],
-    matched: &[Profile],
-    max: usize,
-    choice: &ProfileChoice,
-    mode: MatchMode,
-    catalogue: &Catalogue,
-    keep_on: KeepOn<'_>,
-) -> Result<Reduction, MatchError> {
-    requirements.iter().try_for_each(|beam| beam.target.check())?;
-    let mut pool = matched.to_vec();
-    if let ProfileChoice::Catalogue(families) = choice {
-        let catalogue = catalogue.of_families(families)?;
-        pool.extend(catalogue.entries().iter().map(|entry| entry.profile.clone()));
-        return reduce_watched(requirements, &pool, max, mode, keep_on);
+impl FewProfiles<'_> {
+    /// Chooses the profiles, of all that are allowed.
+    ///
+    /// # Errors
+    /// As [`reduce_profiles`](super::reduce_profiles), and if a family is not in the catalogue.
+    pub fn choose(&self) -> Result<Reduction, MatchError> {
+        self.choose_watched(&mut || Ok(()))
     }
-    let families = families(matched);
-    let alone: Vec<Vec<&Requirement>> = requirements.iter().map(|r| vec![r]).collect();
-    pool.extend(fits(&families, &alone, mode, keep_on)?);
-    if requirements.len() <= MOST_PAIRED {
-        pool.extend(fits(&families, &pairs(requirements), mode, keep_on)?);
-    }
-    pool.extend(outlines(matched, requirements, mode, keep_on)?);
-    let mut best = reduce_watched(requirements, &pool, max, mode, keep_on)?;
-    for _ in 0..MOST_ROUNDS {
-        pool.extend(fits(&families, &sharing(requirements, &best), mode, keep_on)?);
-        let next = reduce_watched(requirements, &pool, max, mode, keep_on)?;
-        if next.cost >= best.cost {
-            break;
+
+    /// The same, unless `keep_on` asks to stop.
+    pub(crate) fn choose_watched(&self, keep_on: KeepOn<'_>) -> Result<Reduction, MatchError> {
+        let Self { requirements, matched, max, mode, .. } = *self;
+        requirements.iter().try_for_each(|beam| beam.target.check())?;
+        let mut pool = matched.to_vec();
+        if let ProfileChoice::Catalogue(families) = self.choice {
+            let catalogue = self.catalogue.of_families(families)?;
+            pool.extend(catalogue.entries().iter().map(|entry| entry.profile.clone()));
+            return reduce_watched(requirements, &pool, max, mode, keep_on);
         }
-        best = next;
+        let families = families(matched);
+        let alone: Vec<Vec<&Requirement>> = requirements.iter().map(|r| vec![r]).collect();
+        pool.extend(fits(&families, &alone, mode, keep_on)?);
+        if requirements.len() <= MOST_PAIRED {
+            pool.extend(fits(&families, &pairs(requirements), mode, keep_on)?);
+        }
+        pool.extend(outlines(matched, requirements, mode, keep_on)?);
+        let mut best = reduce_watched(requirements, &pool, max, mode, keep_on)?;
+        for _ in 0..MOST_ROUNDS {
+            pool.extend(fits(&families, &sharing(requirements, &best), mode, keep_on)?);
+            let next = reduce_watched(requirements, &pool, max, mode, keep_on)?;
+            if next.cost >= best.cost {
+                break;
+            }
+            best = next;
+        }
+        Ok(best)
     }
-    Ok(best)
 }
 
 /// The families of sizes among profiles, in their order.
@@ -181,64 +183,10 @@ fn outlines(
     Ok(found)
 }
 
-/// What several beams need together.
-fn together(beams: &[&Requirement], mode: MatchMode) -> MatchTarget {
-    let [area, i_1, i_2, j] = if mode == MatchMode::NotWeaker {
-        let largest =
-            |of: fn(&MatchTarget) -> f64| beams.iter().map(|b| of(&b.target)).fold(0.0, f64::max);
-        [largest(|t| t.area), largest(|t| t.i_1), largest(|t| t.i_2), largest(|t| t.j)]
-    } else {
-        let [i_1, i_2] = median(beams);
-        let total: f64 = beams.iter().map(|b| b.length).sum();
-        let mean = |of: fn(&MatchTarget) -> f64| {
-            let sum: f64 = beams.iter().map(|b| b.length * of(&b.target).ln()).sum();
-            (sum / total).exp()
-        };
-        [mean(|t| t.area), i_1, i_2, mean(|t| t.j)]
-    };
-    MatchTarget {
-        area,
-        i_1,
-        i_2,
-        j,
-        principal_angle: 0.0,
-        contours: None,
-        facets: None,
-        worn: None,
-    }
-}
-
-/// I_1 and I_2 from which the logarithms of the beams' are least far away in all, by length.
-fn median(beams: &[&Requirement]) -> [f64; 2] {
-    let points: Vec<([f64; 2], f64)> =
-        beams.iter().map(|b| ([b.target.i_1.ln(), b.target.i_2.ln()], b.length)).collect();
-    let mean = |weights: &dyn Fn(&[f64; 2]) -> f64| {
-        let (mut sum, mut total) = ([0.0; 2], 0.0);
-        for (p, length) in &points {
-            let weight = length * weights(p);
-            total += weight;
-            sum = [sum[0] + weight * p[0], sum[1] + weight * p[1]];
-        }
-        sum.map(|x| x / total)
-    };
-    let away = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-    let mut at = mean(&|_| 1.0);
-    let spread = points.iter().map(|(p, _)| away(p, &at)).fold(0.0, f64::max);
-    if spread > 0.0 {
-        // A point it comes to lie on has a weight, but no infinite one.
-        let nearest = 1e-9 * spread;
-        for _ in 0..MEDIAN_STEPS {
-            let from = at;
-            at = mean(&|p| 1.0 / away(p, &from).max(nearest));
-        }
-    }
-    at.map(f64::exp)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::section::matching::MatchErrors;
+    use crate::section::matching::{MatchErrors, MatchTarget};
     use crate::section::properties::SectionProperties;
 
     const MODES: [MatchMode; 3] = [MatchMode::Stiffness, MatchMode::Area, MatchMode::NotWeaker];
@@ -259,6 +207,17 @@ mod tests {
     fn rounds(bars: &[(f64, f64)]) -> (Vec<Requirement>, Vec<Profile>) {
         let shapes: Vec<_> = bars.iter().map(|&(d, l)| (Shape::Round { d }, l)).collect();
         beams(&shapes)
+    }
+
+    fn chosen(
+        requirements: &[Requirement],
+        matched: &[Profile],
+        max: usize,
+        choice: &ProfileChoice,
+        mode: MatchMode,
+    ) -> Reduction {
+        let catalogue = Catalogue::builtin();
+        FewProfiles { requirements, matched, max, choice, mode, catalogue }.choose().unwrap()
     }
 
     /// The cost of one profile for one beam, written out once more.
@@ -294,7 +253,7 @@ mod tests {
         let tubes = Catalogue::builtin().of_families(&["CHS"]).unwrap();
         let pool: Vec<_> = tubes.entries().iter().map(|e| e.properties).collect();
         for mode in MODES {
-            let two = fewest_profiles(&beams, &[], 2, &choice, mode, Catalogue::builtin()).unwrap();
+            let two = chosen(&beams, &[], 2, &choice, mode);
             let least = least_of_two(&pool, &beams, mode);
             assert!(two.is_least && two.profiles.len() <= 2);
             assert!((two.cost / least - 1.0).abs() < 1e-9, "{mode}: {} for {least}", two.cost);
@@ -311,9 +270,7 @@ mod tests {
             super::super::match_profile(target, &choice, mode, Catalogue::builtin()).unwrap()
         };
         let matched: Vec<Profile> = beams.iter().map(|b| of(&b.target).profile).collect();
-        let all = |mode| {
-            fewest_profiles(&beams, &matched, 1, &choice, mode, Catalogue::builtin()).unwrap()
-        };
+        let all = |mode| chosen(&beams, &matched, 1, &choice, mode);
         assert!(!matched.contains(&all(MatchMode::Stiffness).profiles[0]));
         assert_eq!(all(MatchMode::NotWeaker).profiles[0], matched[1]);
     }
@@ -323,8 +280,7 @@ mod tests {
         let one = |bars: &[(f64, f64)], mode| {
             let (beams, own) = rounds(bars);
             let choice = ProfileChoice::Round;
-            let all =
-                fewest_profiles(&beams, &own, 1, &choice, mode, Catalogue::builtin()).unwrap();
+            let all = chosen(&beams, &own, 1, &choice, mode);
             all.profiles[0].to_string()
         };
         let bars = [(10.0, 100.0), (12.0, 100.0), (20.0, 100.0)];
@@ -342,8 +298,7 @@ mod tests {
         let choice = ProfileChoice::Rectangle;
         for max in [1, 2] {
             let mode = MatchMode::NotWeaker;
-            let found =
-                fewest_profiles(&beams, &own, max, &choice, mode, Catalogue::builtin()).unwrap();
+            let found = chosen(&beams, &own, max, &choice, mode);
             for (beam, &place) in beams.iter().zip(&found.profile_of) {
                 let own = found.profiles[place].properties().unwrap();
                 assert!(MatchErrors::of(&own, &beam.target).is_not_weaker());
@@ -364,25 +319,8 @@ mod tests {
         let pool: Vec<_> = shapes.iter().map(|s| properties(&s.0)).collect();
         for mode in MODES {
             let choice = ProfileChoice::Rectangle;
-            let two =
-                fewest_profiles(&beams, &own, 2, &choice, mode, Catalogue::builtin()).unwrap();
+            let two = chosen(&beams, &own, 2, &choice, mode);
             assert!(two.cost <= least_of_two(&pool, &beams, mode) * (1.0 + 1e-9), "{mode}");
-        }
-    }
-
-    #[test]
-    fn the_geometric_median_is_nearer_in_all_than_points_about_it() {
-        let flat = |b: f64, h: f64, l: f64| (Shape::Rectangle { b, h }, l);
-        let (beams, _) =
-            beams(&[flat(5.0, 9.0, 10.0), flat(8.0, 8.0, 20.0), flat(6.0, 20.0, 15.0)]);
-        let all: Vec<&Requirement> = beams.iter().collect();
-        let way = |i_1: f64, i_2: f64| -> f64 {
-            let off = |b: &&Requirement| (i_1 / b.target.i_1).ln().hypot((i_2 / b.target.i_2).ln());
-            all.iter().map(|b| b.length * off(b)).sum()
-        };
-        let [i_1, i_2] = median(&all);
-        for (f, g) in [(1.01, 1.0), (0.99, 1.0), (1.0, 1.01), (1.0, 0.99)] {
-            assert!(way(i_1, i_2) <= way(f * i_1, g * i_2) * (1.0 + 1e-6));
         }
     }
 }

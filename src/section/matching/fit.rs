@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use super::{MatchMode, MatchTarget, ProfileChoice};
 use crate::section::error::SectionError;
+use crate::section::moments::Moments;
 use crate::section::piece::bisect;
 use crate::section::profile::Shape;
-use crate::section::properties::Moments;
 
 /// Wall over the smaller outer size that a hollow or open profile gets when the measured section
 /// is solid and its area says nothing about a wall: the middle of the usual range, CHS 60.3 × 5

@@ -74,8 +74,8 @@ mod tests {
     use nalgebra::Point2;
 
     use super::*;
+    use crate::section::contours::Contours;
     use crate::section::profile::Shape;
-    use crate::section::properties::Contours;
 
     fn name(target: &MatchTarget, mode: MatchMode, families: &[&str]) -> String {
         let catalogue = Catalogue::builtin().of_families(families).unwrap();

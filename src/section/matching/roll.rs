@@ -6,9 +6,10 @@ use nalgebra::Point2;
 
 use super::target::folded_angle;
 use super::{MatchError, MatchErrors, MatchMode, MatchTarget, Matched};
+use crate::section::contours::Contours;
 use crate::section::freeform::average_outline;
 use crate::section::profile::{Profile, Shape};
-use crate::section::properties::{Contours, SectionProperties};
+use crate::section::properties::SectionProperties;
 use crate::section::rays::{Fan, Rays};
 
 /// I_1/I_2 below which a section has no strong axis to speak of, and a profile with corners is

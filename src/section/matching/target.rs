@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use super::{MatchError, MatchMode};
+use crate::section::contours::Contours;
 use crate::section::error::SectionError;
 use crate::section::profile::Shape;
-use crate::section::properties::{Contours, SectionProperties};
+use crate::section::properties::SectionProperties;
 
 /// The measured section of a beam.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,7 +18,7 @@ use std::f64::consts::FRAC_PI_2;
 use nalgebra::{Point2, Rotation2};
 
 use super::fit::rectangle;
-use crate::section::properties::{Contours, sides};
+use crate::section::contours::{Contours, sides};
 
 /// Largest angle between a piece of contour and the side it counts for, rad: 10°. An averaged
 /// contour of a voxel part waves by 3 to 5° about a flat side; a circle has a sixth of its width
@@ -76,7 +76,7 @@ struct Between {
 fn between(polygon: &[Point2<f64>], axis: usize) -> Option<Between> {
     // Outward normals along the positive and the negative axis.
     let mut flats = [Vec::new(), Vec::new()];
-    let orientation = crate::section::properties::signed_area(polygon).signum();
+    let orientation = crate::section::contours::signed_area(polygon).signum();
     for (p, q) in sides(polygon) {
         let outward = Rotation2::new(-orientation * FRAC_PI_2) * (q - p);
         let length = outward.norm();

@@ -39,9 +39,10 @@ mod solid;
 use std::fmt;
 
 use super::error::SectionError;
+use super::moments::Moments;
 use super::outline::Region;
 use super::piece::Piece;
-use super::properties::{Moments, SectionProperties};
+use super::properties::SectionProperties;
 pub use moduli::Moduli;
 pub use shape::Shape;
 

@@ -2,8 +2,8 @@
 
 use nalgebra::{Point2, Vector2};
 
+use super::super::moments::Moments;
 use super::super::piece::{Piece, bisect};
-use super::super::properties::Moments;
 
 /// Section moduli about the local axes through the centroid, mm³.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,8 +3,8 @@
 use nalgebra::{Point2, Vector2};
 
 use super::super::error::{SectionError, positive, within};
+use super::super::moments::Moments;
 use super::super::outline::{Outline, Path, Segment};
-use super::super::properties::Moments;
 
 /// * `sides`: flange outstands a fillet must fit on, 2 for I and 1 for C.
 pub(super) fn check(
@@ -142,8 +142,8 @@ pub(super) fn l_torsion(h: f64, b: f64, t: f64, r: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::section::contours::Contours;
     use crate::section::outline::Region;
-    use crate::section::properties::Contours;
     use crate::section::torsion::torsion_constant;
 
     /// ArcelorMittal, Sections and Merchant Bars, tables to EN 10365: I_t of IPE 200 6.98 cm⁴,

@@ -2,10 +2,11 @@
 
 use std::fmt;
 
+use super::super::contours::Contours;
 use super::super::error::{SectionError, positive, within};
 use super::super::freeform::Freeform;
+use super::super::moments::Moments;
 use super::super::outline::{Outline, Region};
-use super::super::properties::{Contours, Moments};
 use super::super::torsion::torsion_constant;
 use super::{hollow, open, solid};
 

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::{Point2, Vector2};
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, RefinementParameters, Triangulation};
 
+use crate::section::contours::signed_area;
 use crate::section::error::SectionError;
-use crate::section::properties::signed_area;
 use crate::section::rays::crossings;
 
 /// Smallest angle asked for, degrees. 22 keeps the triangles well shaped for the elements and is

@@ -33,8 +33,8 @@ mod mesh;
 
 use nalgebra::Point2;
 
+use super::contours::{Contours, sides, signed_area};
 use super::error::SectionError;
-use super::properties::{Contours, sides, signed_area};
 use element::Stiffness;
 use mesh::{Mesh, triangulate};
 
