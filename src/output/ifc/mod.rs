@@ -14,12 +14,14 @@
 
 mod guid;
 mod profile;
+mod project;
 
 use std::io::{self, Write};
 
 use nalgebra::{Point3, Unit, Vector3};
 
 use self::guid::Guid;
+use self::project::Project;
 use super::assembly::mark;
 use super::material::Material;
 use super::part21::{Fault, Id, List, Part21, Real, Text};
@@ -74,11 +76,7 @@ struct Model<'a> {
     part: Part21<'a>,
     name: &'a str,
     material: &'a Material,
-    /// Axis and body contexts.
-    contexts: [Id; 2],
-    origin: Id,
-    storey: Id,
-    storey_placement: Id,
+    project: Project,
     material_id: Id,
     /// Profiles written so far, by name, with their material sets.
     profiles: Vec<(String, [Id; 2])>,
@@ -86,74 +84,9 @@ struct Model<'a> {
 
 impl<'a> Model<'a> {
     fn new(mut part: Part21<'a>, name: &'a str, material: &'a Material) -> Result<Self, Fault> {
-        let p = &mut part;
-        let zero = p.entity(format_args!("IFCCARTESIANPOINT((0.,0.,0.))"))?;
-        let origin = p.entity(format_args!("IFCAXIS2PLACEMENT3D({zero},$,$)"))?;
-        let length = p.entity(format_args!("IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.)"))?;
-        let area = p.entity(format_args!("IFCSIUNIT(*,.AREAUNIT.,.MILLI.,.SQUARE_METRE.)"))?;
-        let volume = p.entity(format_args!("IFCSIUNIT(*,.VOLUMEUNIT.,.MILLI.,.CUBIC_METRE.)"))?;
-        let angle = p.entity(format_args!("IFCSIUNIT(*,.PLANEANGLEUNIT.,$,.RADIAN.)"))?;
-        let mass = p.entity(format_args!("IFCSIUNIT(*,.MASSUNIT.,.KILO.,.GRAM.)"))?;
-        let units = List([length, area, volume, angle, mass]);
-        let units = p.entity(format_args!("IFCUNITASSIGNMENT({units})"))?;
-        let context = p.entity(format_args!(
-            "IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,{origin},$)"
-        ))?;
-        let mut sub = |kind: &str| {
-            p.entity(format_args!(
-                "IFCGEOMETRICREPRESENTATIONSUBCONTEXT({},'Model',*,*,*,*,{context},$,.MODEL_VIEW.,$)",
-                Text(kind)
-            ))
-        };
-        let contexts = [sub("Axis")?, sub("Body")?];
-        let text = Text(name);
-        let guid = |what: &str| Guid::of(&[name, what]);
-        let project = p.entity(format_args!(
-            "IFCPROJECT({},$,{text},$,$,$,$,({context}),{units})",
-            guid("project")
-        ))?;
-        let place = |p: &mut Part21<'_>, above: Option<Id>| {
-            let above = above.map_or("$".to_owned(), |id| id.to_string());
-            p.entity(format_args!("IFCLOCALPLACEMENT({above},{origin})"))
-        };
-        let at = place(p, None)?;
-        let site = p.entity(format_args!(
-            "IFCSITE({},$,'Site',$,$,{at},$,$,.ELEMENT.,$,$,$,$,$)",
-            guid("site")
-        ))?;
-        let at = place(p, Some(at))?;
-        let building = p.entity(format_args!(
-            "IFCBUILDING({},$,{text},$,$,{at},$,$,.ELEMENT.,$,$,$)",
-            guid("building")
-        ))?;
-        let storey_placement = place(p, Some(at))?;
-        let storey = p.entity(format_args!(
-            "IFCBUILDINGSTOREY({},$,'Frame',$,$,{storey_placement},$,$,.ELEMENT.,0.)",
-            guid("storey")
-        ))?;
-        for (what, above, below) in [
-            ("project-site", project, site),
-            ("site-building", site, building),
-            ("building-storey", building, storey),
-        ] {
-            p.entity(format_args!(
-                "IFCRELAGGREGATES({},$,$,$,{above},({below}))",
-                Guid::of(&[name, what])
-            ))?;
-        }
-        let material_id = p.entity(format_args!("IFCMATERIAL({},$,$)", Text(&material.name)))?;
-        let profiles = Vec::new();
-        Ok(Self {
-            part,
-            name,
-            material,
-            contexts,
-            origin,
-            storey,
-            storey_placement,
-            material_id,
-            profiles,
-        })
+        let project = Project::write(&mut part, name)?;
+        let material_id = part.entity(format_args!("IFCMATERIAL({},$,$)", Text(&material.name)))?;
+        Ok(Self { part, name, material, project, material_id, profiles: Vec::new() })
     }
 
     fn member(
@@ -169,8 +102,8 @@ impl<'a> Model<'a> {
         let axes = beam.axes.rolled(beam.shape.roll);
         let start = start + axes.x.into_inner() * cut.ends[0].setback;
         let at = self.axes(&start, &axes.x, &axes.y)?;
-        let at = format_args!("IFCLOCALPLACEMENT({},{at})", self.storey_placement).to_string();
-        let placement = self.part.entity(format_args!("{at}"))?;
+        let storey = self.project.storey_placement;
+        let placement = self.part.entity(format_args!("IFCLOCALPLACEMENT({storey},{at})"))?;
         let shape = self.shape(profile, cut.axis_length)?;
         let guid = Guid::of(&[self.name, &mark]);
         let (name, kind) = (Text(&mark), beam.shape.name());
@@ -210,7 +143,7 @@ impl<'a> Model<'a> {
     /// profile.
     fn shape(&mut self, profile: Id, length: f64) -> Result<Id, Fault> {
         let part = &mut self.part;
-        let [axis, body] = self.contexts;
+        let [axis, body] = self.project.contexts;
         let length = Real(length);
         let a = part.entity(format_args!("IFCCARTESIANPOINT((0.,0.,0.))"))?;
         let b = part.entity(format_args!("IFCCARTESIANPOINT((0.,0.,{length}))"))?;
@@ -218,7 +151,7 @@ impl<'a> Model<'a> {
         let up = part.entity(format_args!("IFCDIRECTION((0.,0.,1.))"))?;
         let solid = part.entity(format_args!(
             "IFCEXTRUDEDAREASOLID({profile},{},{up},{length})",
-            self.origin
+            self.project.origin
         ))?;
         let line =
             part.entity(format_args!("IFCSHAPEREPRESENTATION({axis},'Axis','Curve3D',({line}))"))?;
@@ -298,7 +231,7 @@ impl<'a> Model<'a> {
             return Ok(());
         }
         let guid = Guid::of(&[self.name, "storey-members"]);
-        let (members, storey) = (List(members), self.storey);
+        let (members, storey) = (List(members), self.project.storey);
         self.part
             .entity(format_args!(
                 "IFCRELCONTAINEDINSPATIALSTRUCTURE({guid},$,$,$,{members},{storey})"
