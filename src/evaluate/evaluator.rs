@@ -15,8 +15,7 @@ use super::plane_cut::Cutter;
 use super::point::{Gauge, PointMeasure, normal_plane};
 use super::resample::resample_graph;
 use super::topology::{MeshTopology, Topology};
-use crate::mesh::interface_section::LoopFrame;
-use crate::mesh::{Surface, TriangleTree};
+use crate::mesh::{LoopFrame, Surface, TriangleTree};
 use crate::skeleton::graph::Skeleton;
 use crate::skeleton_file::LineGraph;
 

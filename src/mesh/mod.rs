@@ -3,6 +3,7 @@
 //! [`prepare`](prepare::prepare) turns what a reader delivers into a [`Surface`]; everything later
 //! works on that.
 
+mod border;
 pub mod contour;
 mod edges;
 pub mod error;
@@ -24,6 +25,7 @@ pub mod shell;
 mod test_box;
 pub mod triangle_tree;
 
+pub(crate) use border::LoopFrame;
 pub use error::MeshError;
 pub use half_edge::HalfEdgeMesh;
 pub use interface_section::{InterfaceKind, InterfaceSection};

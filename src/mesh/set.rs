@@ -2,10 +2,10 @@
 
 use nalgebra::Point3;
 
+use super::border::{LoopFrame, border_loops};
 use super::edges::Buckets;
 use super::half_edge::HalfEdgeMesh;
 use super::id::{FaceId, HalfEdgeId, SetId};
-use super::interface_section::{LoopFrame, border_loops};
 use super::label::Label;
 
 /// A patch of faces is a speck when its area is below this part of the area of a typical interface

@@ -12,6 +12,7 @@
 use nalgebra::{Point2, Vector2};
 
 use super::freeform::Freeform;
+pub(crate) use super::piece::arc_centre;
 use super::piece::{Piece, arc_between};
 
 /// Corners nearer than this part of their coordinates, where two roundings meet, are one point:

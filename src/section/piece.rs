@@ -145,13 +145,18 @@ pub(crate) fn sum_over(pieces: &[Piece], f: impl Fn(Point2<f64>, Vector2<f64>) -
     pieces.iter().map(|piece| piece.integrate([0.0, 1.0], &f)).sum()
 }
 
-/// The pieces of the circular arc from one point to another that turns by `sweep`.
+/// The centre of the circular arc from one point to another that turns by `sweep`, rad.
 ///
-/// Its centre lies off the middle of the chord c by ½|c| / tan(sweep/2).
-pub(crate) fn arc_between(from: Point2<f64>, to: Point2<f64>, sweep: f64) -> Vec<Piece> {
+/// It lies off the middle of the chord c by ½|c| / tan(sweep/2).
+pub(crate) fn arc_centre(from: Point2<f64>, to: Point2<f64>, sweep: f64) -> Point2<f64> {
     let chord = to - from;
     let off = Vector2::new(-chord.y, chord.x) * (0.5 / (0.5 * sweep).tan());
-    let centre = from + chord * 0.5 + off;
+    from + chord * 0.5 + off
+}
+
+/// The pieces of the circular arc from one point to another that turns by `sweep`, rad.
+pub(crate) fn arc_between(from: Point2<f64>, to: Point2<f64>, sweep: f64) -> Vec<Piece> {
+    let centre = arc_centre(from, to, sweep);
     let parts = (sweep.abs() / FRAC_PI_2 - 1e-9).ceil().max(1.0);
     let part = sweep.abs() / parts;
     let (p, side) = (from - centre, sweep.signum());

@@ -7,7 +7,8 @@ use nalgebra::{Point2, Point3, Vector2, Vector3};
 use super::{ROUND, Triangles};
 use crate::output::cap::{Ring, cap};
 use crate::output::step::{ClosedSpline, EndCut, Loft};
-use crate::section::outline::{Outline, Path, Segment};
+use crate::section::contours::signed_area;
+use crate::section::outline::{Outline, Path, Segment, arc_centre};
 
 /// A cut may shorten a beam by this part of the way to the next station; beyond, the end is turned
 /// instead.
@@ -143,7 +144,7 @@ fn ring(outline: &Outline, round: &Corners) -> Ring {
             ClosedSpline::through(curve.points()).map_or_else(|_| Ring::new(), on)
         }
     };
-    if doubled_area(&corners) < 0.0 { reversed(corners) } else { corners }
+    if signed_area(&corners) < 0.0 { reversed(corners) } else { corners }
 }
 
 /// Corners along lines and arcs; an arc gets as many as its part of a circle.
@@ -157,9 +158,7 @@ fn along(path: &Path) -> Ring {
                 from = to;
             }
             Segment::Arc { to, sweep } => {
-                let chord = to - from;
-                let off = Vector2::new(-chord.y, chord.x) * (0.5 / (0.5 * sweep).tan());
-                let centre = from + chord * 0.5 + off;
+                let centre = arc_centre(from, to, sweep);
                 let steps = ((sweep.abs() / TAU * ROUND as f64).ceil() as usize).max(1);
                 corners.extend((0..steps).map(|i| {
                     let angle = sweep * i as f64 / steps as f64;
@@ -173,11 +172,6 @@ fn along(path: &Path) -> Ring {
         corners.push(from);
     }
     corners
-}
-
-fn doubled_area(corners: &[Point2<f64>]) -> f64 {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).map(|(p, q)| p.coords.perp(&q.coords)).sum()
 }
 
 /// The ring run backwards from the same start.

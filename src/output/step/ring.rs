@@ -18,7 +18,7 @@ use super::crossing::first_crossing;
 use super::error::{BodyError, positive};
 use super::piece::{Arc, Piece, signed_area};
 use super::tolerance::SHORTEST;
-use crate::section::outline::{Outline, Path, Segment};
+use crate::section::outline::{Outline, Path, Segment, arc_centre};
 
 /// One closed outline: counter-clockwise outside, clockwise as a hole.
 pub(super) type Ring = Vec<Piece>;
@@ -89,9 +89,7 @@ fn along(path: &Path) -> Result<Ring, BodyError> {
     if pieces.len() < 2 { Err(BodyError::NoArea) } else { Ok(pieces) }
 }
 
-/// The circular arc from one point to another that turns by `sweep`.
-///
-/// Its centre lies off the middle of the chord c by ½|c| / tan(sweep/2).
+/// The circular arc from one point to another that turns by `sweep`, rad.
 fn arc_between(from: Point2<f64>, to: Point2<f64>, sweep: f64) -> Result<Piece, BodyError> {
     if !sweep.is_finite() {
         return Err(BodyError::NotFinite { what: "the sweep of an arc" });
@@ -100,9 +98,7 @@ fn arc_between(from: Point2<f64>, to: Point2<f64>, sweep: f64) -> Result<Piece, 
     if !(LEAST_SWEEP..TAU - LEAST_SWEEP).contains(&size) {
         return Err(BodyError::BadSweep { radians: sweep });
     }
-    let chord = to - from;
-    let off = Vector2::new(-chord.y, chord.x) * (0.5 / (0.5 * sweep).tan());
-    let centre = from + chord * 0.5 + off;
+    let centre = arc_centre(from, to, sweep);
     let p = from - centre;
     let q = Vector2::new(-p.y, p.x) * sweep.signum();
     Ok(Piece::Arc(Arc { centre, p, q, sweep: size }))
