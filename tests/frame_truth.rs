@@ -16,7 +16,7 @@ use beamwright::skeleton::{self, SkeletonParams};
 use common::TestMesh;
 use common::families::quarter_bend;
 use common::frame::TrueFrame;
-use common::march_cubes::surface_of;
+use common::zero_surface::surface_of;
 use nalgebra::{Point3, Vector3};
 
 fn data(name: &str) -> PathBuf {

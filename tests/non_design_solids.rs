@@ -7,7 +7,7 @@ use beamwright::finding::FindingKind;
 use beamwright::output::non_design::{FACE_BUDGET, NonDesign, non_design};
 use common::TestMesh;
 use common::frame::bar;
-use common::march_cubes::surface_of;
+use common::zero_surface::surface_of;
 
 fn parts(mesh: &TestMesh) -> NonDesign {
     non_design(&mesh.surface(), 7850.0)

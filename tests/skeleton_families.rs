@@ -10,7 +10,7 @@ use beamwright::skeleton::{
 use common::TestMesh;
 use common::families::{cylinder, cylinder_between_pads, quarter_bend, together, torus};
 use common::frame::{self, TrueFrame};
-use common::march_cubes::surface_of;
+use common::zero_surface::surface_of;
 
 fn marched(mesh: &TestMesh) -> Result<Marched, SkeletonError> {
     march(&mesh.surface(), &SkeletonParams::default(), &mut ())

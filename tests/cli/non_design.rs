@@ -8,8 +8,8 @@ use tempfile::{TempDir, tempdir};
 use crate::common::TestMesh;
 use crate::common::families::cube;
 use crate::common::frame::{TrueFrame, bar, corner};
-use crate::common::march_cubes::surface_of;
 use crate::common::program::run;
+use crate::common::zero_surface::surface_of;
 
 fn folder_with(mesh: &TestMesh) -> TempDir {
     let folder = tempdir().expect("a folder");

@@ -1,7 +1,7 @@
 //! Frames of round struts with pads, from signed distances.
 
 use super::TestMesh;
-use super::march_cubes::surface_of;
+use super::zero_surface::surface_of;
 
 /// A frame: its truth.
 #[derive(Clone, Debug, Default)]

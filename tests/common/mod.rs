@@ -5,8 +5,8 @@
 pub mod curves;
 pub mod families;
 pub mod frame;
-pub mod march_cubes;
 pub mod program;
+pub mod zero_surface;
 
 use beamwright::mesh::{LabelParams, Surface, prepare};
 use beamwright_formats::{Polygons, RawMesh};
