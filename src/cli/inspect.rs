@@ -1,7 +1,8 @@
 //! `beamwright inspect`.
 
+use beamwright::mesh;
 use beamwright::output::summary::Summary;
-use beamwright::pipeline::{mesh_findings, surface};
+use beamwright::pipeline::surface;
 use clap::Args;
 
 use super::args::{GlobalArgs, InputArgs, ResultArgs};
@@ -30,6 +31,6 @@ pub(crate) fn run(
     let surface = surface(&args.input.input, &args.input.settings(), progress)?;
     progress.finish();
     let name = show::name_of(&args.input.input);
-    let summary = Summary::new(name, &surface, &mesh_findings(&surface));
+    let summary = Summary::new(name, &surface, &mesh::findings(&surface));
     show::summary(&summary, &args.result, global)
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use beamwright::mesh::Surface;
+use beamwright::mesh::{Surface, unit_in_doubt};
 use beamwright::output::assembly::{Assembly, AssemblyError, assembly};
 use beamwright::output::cut_list::CutList;
 use beamwright::output::mesh_export::{PartMesh, write_parts};
@@ -141,7 +141,7 @@ fn reconstruct(
 fn not_built(mesh: &Path, surface: &Surface, fault: &AssemblyError) -> Failure {
     // A part whose beams are too fine is told so.
     let is_told = matches!(fault, AssemblyError::TooFine { .. });
-    let advice = pipeline::unit_in_doubt(surface.report.extent).filter(|_| !is_told);
+    let advice = unit_in_doubt(surface.report.extent).filter(|_| !is_told);
     let advice = advice.map_or_else(String::new, |advice| format!("; {advice}"));
     Failure::input(format!("cannot build {}: {fault}{advice}", mesh.display()))
 }

@@ -131,7 +131,7 @@ fn both_ends(profile: &Profile) -> Vec<ShapeStation> {
 }
 
 /// Diameter of the round bar of an area, mm.
-pub(crate) fn round_of_area(area: f64) -> f64 {
+fn round_of_area(area: f64) -> f64 {
     2.0 * (area / PI).sqrt()
 }
 

@@ -9,6 +9,7 @@ mod edges;
 pub mod error;
 mod fans;
 mod fill;
+mod findings;
 pub mod half_edge;
 pub mod id;
 pub mod indexed;
@@ -27,6 +28,7 @@ pub mod triangle_tree;
 
 pub(crate) use border::LoopFrame;
 pub use error::MeshError;
+pub use findings::{findings, unit_in_doubt};
 pub use half_edge::HalfEdgeMesh;
 pub use interface_section::{InterfaceKind, InterfaceSection};
 pub use label::{Label, LabelParams};

@@ -21,13 +21,6 @@ pub struct Shell {
     pub depth: usize,
 }
 
-impl Shell {
-    /// Whether the shell bounds a hollow inside a body.
-    pub fn is_cavity(&self) -> bool {
-        self.depth % 2 == 1
-    }
-}
-
 /// The shells of a mesh and, for each triangle, its shell.
 #[derive(Clone, Debug, Default)]
 pub struct Shells {

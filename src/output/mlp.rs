@@ -107,7 +107,7 @@ fn escaped(text: &str) -> String {
 
 /// How far each skeletal point lies from the centroid of its section, in section radii; `None`
 /// where no section is known.
-pub fn off_centre(skeleton: &Skeleton, sections: &[Option<Section>]) -> Vec<Option<f64>> {
+fn off_centre(skeleton: &Skeleton, sections: &[Option<Section>]) -> Vec<Option<f64>> {
     let of = |(i, point): (usize, &crate::skeleton::graph::SkeletalPoint)| {
         let section = sections.get(i)?.as_ref()?;
         let off = (point.position - section.centroid).norm() / section.radius();

@@ -90,7 +90,7 @@ struct File<'a> {
 /// The properties of every section, in the order of branches and points.
 ///
 /// A contour that is no plane region (it touches itself) is left out.
-pub fn section_rows(
+fn section_rows(
     skeleton: &Skeleton,
     sections: &[Option<Section>],
     frame: &Frame,

@@ -141,7 +141,7 @@ fn part(i: usize) -> [f64; 2] {
 }
 
 /// ∮ f dt over all pieces.
-pub(crate) fn sum_over(pieces: &[Piece], f: impl Fn(Point2<f64>, Vector2<f64>) -> f64) -> f64 {
+fn sum_over(pieces: &[Piece], f: impl Fn(Point2<f64>, Vector2<f64>) -> f64) -> f64 {
     pieces.iter().map(|piece| piece.integrate([0.0, 1.0], &f)).sum()
 }
 

@@ -111,11 +111,6 @@ impl SectionProperties {
     pub fn radius(&self) -> f64 {
         (self.area / PI).sqrt()
     }
-
-    /// Radii of gyration √(I/A) about the axes 1 and 2, mm.
-    pub fn radii_of_gyration(&self) -> [f64; 2] {
-        [self.i_1, self.i_2].map(|i| (i / self.area).sqrt())
-    }
 }
 
 #[cfg(test)]
