@@ -4,11 +4,16 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Point2, Unit, Vector2, Vector3};
 
-use super::{LEAST_LEFT, PER_QUARTER};
 use crate::frame::Beam;
 use crate::saddle::Saddle;
 use crate::section::contours::Contours;
 use crate::section::outline::Outline;
+
+/// A beam keeps at least this part of its length between its cuts.
+const LEAST_LEFT: f64 = 0.2;
+
+/// Points on a quarter of a curved outline, where its extent is asked for: 0.1 % of it.
+pub(super) const PER_QUARTER: usize = 16;
 
 /// How an end of a beam is cut: in a plane, or along the side of a round member.
 #[derive(Clone, Copy, Debug, PartialEq)]

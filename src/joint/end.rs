@@ -2,8 +2,7 @@
 
 use nalgebra::{Unit, Vector3};
 
-use super::PER_QUARTER;
-use super::cut::round;
+use super::cut::{PER_QUARTER, round};
 use crate::frame::{Beam, BeamAxes, Frame};
 use crate::section::contours::Contours;
 use crate::section::outline::Outline;

@@ -74,12 +74,6 @@ pub struct Joints {
 /// is already three times as long as the beam is thick.
 const MOST_OBLIQUE: f64 = 70.0 * std::f64::consts::PI / 180.0;
 
-/// A beam keeps at least this part of its length between its cuts.
-const LEAST_LEFT: f64 = 0.2;
-
-/// Points on a quarter of a curved outline, where its extent is asked for: 0.1 % of it.
-const PER_QUARTER: usize = 16;
-
 /// Makes the joints of a frame.
 ///
 /// * `interfaces`: planes in which the beams of interface nodes end.

@@ -7,8 +7,8 @@ use nalgebra::{Isometry3, Point2, Rotation2, Translation3, UnitQuaternion, Vecto
 
 use super::SAME_PIECE;
 use crate::frame::Beam;
-use crate::joint::cut::{rise, slopes};
-use crate::joint::{CutBeam, PER_QUARTER};
+use crate::joint::CutBeam;
+use crate::joint::cut::{PER_QUARTER, rise, slopes};
 use crate::section::contours::Contours;
 use crate::section::outline::{Outline, Region};
 use crate::segment::distance;

@@ -6,8 +6,8 @@ use super::brep::Axes;
 use super::catalogue::Catalogue;
 use super::document::{Document, Group};
 use super::error::StepError;
-use super::part21::{Fault, Id, Text};
 use super::product::{Placed, Products};
+use crate::output::part21::{Fault, Id, Text};
 
 /// Writes all products, then the tree from its leaves to its root.
 pub(super) fn write_tree(

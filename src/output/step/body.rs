@@ -33,15 +33,6 @@ impl Body {
         Self::Loft(Loft::prism(Outline::circle(outer_radius), vec![bore], length))
     }
 
-    /// Builds the whole boundary, as it would be written, and returns the volume, mm³.
-    ///
-    /// # Errors
-    /// If the body is not a solid; unlike [`volume`](Self::volume) this also finds gaps between
-    /// faces.
-    pub fn check(&self) -> Result<f64, BodyError> {
-        super::brep::build(self).map(|(volume, _)| volume)
-    }
-
     /// Volume, mm³, by formula or by integration over the exact surface.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! What every STEP file begins with: header, protocol, units, accuracy.
 
-use super::part21::{Fault, Id, Part21, Real, Text};
+use crate::output::part21::{Fault, Id, Part21, Real, Text};
 
 /// Accuracy of the geometry relative to the size of the model.
 const ACCURACY: f64 = 1e-9;

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use truck_modeling::{KnotVec, NurbsCurve, NurbsSurface, Vector4};
 
 use super::brep::{Axes, Conic, Curve, Surface};
-use super::part21::{Fault, Flag, Id, List, Part21, Real};
+use crate::output::part21::{Fault, Flag, Id, List, Part21, Real};
 
 /// Below this a component of a direction is rounding, and written as 0.
 const NO_COMPONENT: f64 = 1e-15;

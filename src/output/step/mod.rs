@@ -91,7 +91,7 @@ pub use tolerance::SHORTEST;
 
 pub use crate::saddle::Saddle;
 
-use super::part21::{self, Part21};
+use crate::output::part21::{self, Part21};
 use catalogue::Catalogue;
 use product::Products;
 

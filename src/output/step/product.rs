@@ -9,8 +9,8 @@ use super::catalogue::Product;
 use super::context::Context;
 use super::document::{Property, Value};
 use super::geometry::Geometry;
-use super::part21::{Fault, Id, List, Part21, Real, Text};
 use super::topology::Topology;
+use crate::output::part21::{Fault, Id, List, Part21, Real, Text};
 
 /// The two ends by which a product is placed in another.
 #[derive(Clone, Copy)]

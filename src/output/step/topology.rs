@@ -6,7 +6,7 @@ use truck_topology::{EdgeID, VertexID};
 
 use super::brep::{Curve, Edge, Face, Shell, Solid, Surface, Vertex, Wire};
 use super::geometry::Geometry;
-use super::part21::{Fault, Flag, Id, List};
+use crate::output::part21::{Fault, Flag, Id, List};
 
 /// Writes the solid of one product.
 pub(super) struct Topology<'g, 'w, 'a> {

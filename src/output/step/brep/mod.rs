@@ -108,6 +108,17 @@ impl Axes {
     }
 }
 
+impl Body {
+    /// Builds the whole boundary, as it would be written, and returns the volume, mm³.
+    ///
+    /// # Errors
+    /// If the body is not a solid; unlike [`volume`](Self::volume) this also finds gaps between
+    /// faces.
+    pub fn check(&self) -> Result<f64, BodyError> {
+        build(self).map(|(volume, _)| volume)
+    }
+}
+
 /// Finds the volume of a body and builds its boundary, checked by truck.
 ///
 /// # Errors
