@@ -13,7 +13,8 @@
 
 use nalgebra::{Point2, Point3, Vector3};
 
-use super::triangle_tree::{DIRECTIONS, Hit, Ray, TriangleTree};
+use super::ray::{DIRECTIONS, Hit, Ray};
+use super::triangle_tree::TriangleTree;
 
 /// Entries of the grid for each triangle, at most: large triangles lie in many cells.
 const MOST_ENTRIES: usize = 8;

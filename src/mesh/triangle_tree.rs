@@ -5,21 +5,13 @@
 
 use std::cell::Cell;
 
-use nalgebra::{Point2, Point3, Vector3};
+use nalgebra::{Point3, Vector3};
 
-use super::contour::Plane;
+use super::plane::Plane;
+use super::ray::{DIRECTIONS, Hit, Ray};
 
 /// Triangles in one leaf: below four the boxes cost more than they save.
 const LEAF: usize = 4;
-
-/// Directions for the inside test, far from the axes along which CAD models have their faces. The
-/// second is taken when the first meets an edge or a corner exactly, and so on.
-pub(super) const DIRECTIONS: [[f64; 3]; 4] = [
-    [0.367_879_441, 0.577_215_664, 0.729_153_2],
-    [-0.618_033_988, 0.309_016_994, 0.726_2],
-    [0.271_828_182, -0.683_012_70, 0.667_7],
-    [0.141_421_356, 0.235_711_131, -0.961_5],
-];
 
 /// A tree over the triangles of a surface.
 #[derive(Clone, Debug)]
@@ -145,7 +137,7 @@ impl TriangleTree {
         let ray = Ray::new(origin, direction);
         let mut clear = true;
         self.visit_leaves(
-            |n| ray.may_meet(n, f64::INFINITY),
+            |n| ray.may_meet(&n.low, &n.high, f64::INFINITY),
             |face| match ray.cross(&self.corners[face as usize]) {
                 Hit::At(at, sign) => visit(Crossing { face, at, sign }),
                 Hit::Edge => clear = false,
@@ -176,7 +168,7 @@ impl TriangleTree {
         let ray = Ray::new(a, &(b - a));
         let first: Cell<Option<Crossing>> = Cell::new(None);
         self.visit_leaves(
-            |n| ray.may_meet(n, first.get().map_or(1.0, |f| f.at)),
+            |n| ray.may_meet(&n.low, &n.high, first.get().map_or(1.0, |f| f.at)),
             |face| {
                 asked += 1;
                 match ray.cross(&self.corners[face as usize]) {
@@ -283,85 +275,6 @@ impl TreeNode {
                 d.max(0.0).powi(2)
             })
             .sum()
-    }
-}
-
-/// A ray in the shape the watertight triangle test wants it: sheared so that it runs along z.
-///
-/// Woop, Benthin, Wald: *Watertight Ray/Triangle Intersection*, JCGT 2 (2013).
-pub(super) struct Ray {
-    origin: Point3<f64>,
-    inverse: Vector3<f64>,
-    axes: [usize; 3],
-    shear: [f64; 3],
-}
-
-pub(super) enum Hit {
-    Miss,
-    Edge,
-    At(f64, i32),
-}
-
-impl Ray {
-    pub(super) fn new(origin: &Point3<f64>, direction: &Vector3<f64>) -> Self {
-        let z = direction.iamax();
-        let (x, y) = if direction[z] < 0.0 {
-            ((z + 2) % 3, (z + 1) % 3)
-        } else {
-            ((z + 1) % 3, (z + 2) % 3)
-        };
-        let d = direction;
-        Self {
-            origin: *origin,
-            inverse: d.map(|c| 1.0 / c),
-            axes: [x, y, z],
-            shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
-        }
-    }
-
-    fn may_meet(&self, node: &TreeNode, reach: f64) -> bool {
-        // A NaN (0 · ∞) is neither less nor more: it leaves the interval as it is.
-        let less = |a: f64, b: f64| if a < b { a } else { b };
-        let more = |a: f64, b: f64| if a > b { a } else { b };
-        let (mut enter, mut leave) = (0.0, reach);
-        for k in 0..3 {
-            let low = (f64::from(node.low[k]) - self.origin[k]) * self.inverse[k];
-            let high = (f64::from(node.high[k]) - self.origin[k]) * self.inverse[k];
-            enter = more(less(low, high), enter);
-            leave = less(more(low, high), leave);
-        }
-        enter <= leave
-    }
-
-    /// A vector seen along the ray.
-    pub(super) fn flat(&self, v: &Vector3<f64>) -> Point2<f64> {
-        let [x, y, z] = self.axes;
-        Point2::new(v[x] - self.shear[0] * v[z], v[y] - self.shear[1] * v[z])
-    }
-
-    pub(super) fn cross(&self, corners: &[Point3<f64>; 3]) -> Hit {
-        let [x, y, z] = self.axes;
-        let [sx, sy, sz] = self.shear;
-        let [a, b, c] = corners.map(|p| p - self.origin);
-        let flat = |p: &Vector3<f64>| (p[x] - sx * p[z], p[y] - sy * p[z]);
-        let ((ax, ay), (bx, by), (cx, cy)) = (flat(&a), flat(&b), flat(&c));
-        let u = cx * by - cy * bx;
-        let v = ax * cy - ay * cx;
-        let w = bx * ay - by * ax;
-        let some_negative = u < 0.0 || v < 0.0 || w < 0.0;
-        let some_positive = u > 0.0 || v > 0.0 || w > 0.0;
-        if some_negative && some_positive {
-            return Hit::Miss;
-        }
-        let det = u + v + w;
-        let at = (u * a[z] + v * b[z] + w * c[z]) * sz / det;
-        if det == 0.0 || u == 0.0 || v == 0.0 || w == 0.0 {
-            return if at >= 0.0 || at.is_nan() { Hit::Edge } else { Hit::Miss };
-        }
-        if at < 0.0 {
-            return Hit::Miss;
-        }
-        Hit::At(at, if det > 0.0 { -1 } else { 1 })
     }
 }
 
