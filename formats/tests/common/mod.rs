@@ -151,50 +151,64 @@ pub fn stl_binary(model: &Model) -> Vec<u8> {
     bytes
 }
 
+/// The buffer of a glTF file, and where its parts are.
+struct GltfBuffer {
+    bytes: Vec<u8>,
+    /// Bytes from point to point.
+    stride: usize,
+    points_end: usize,
+    /// Indices of non-design and of design faces, one behind the other.
+    counts: [usize; 2],
+    sparse_at: usize,
+}
+
+/// `is_odd`: with room between the points, the first of which is given once more as a sparse value.
+fn gltf_buffer(model: &Model, is_odd: bool) -> GltfBuffer {
+    let stride = if is_odd { 20 } else { 12 };
+    let mut bytes = Vec::new();
+    for position in &model.positions {
+        bytes.extend(position.iter().flat_map(|number| number.to_le_bytes()));
+        bytes.resize(bytes.len() + stride - 12, 0xff);
+    }
+    let points_end = bytes.len();
+    let triangles = fans(model);
+    let counts = [true, false].map(|wanted| {
+        let before = bytes.len();
+        for (triangle, _) in triangles.iter().filter(|triangle| triangle.1 == wanted) {
+            bytes.extend(triangle.iter().flat_map(|corner| corner.to_le_bytes()));
+        }
+        (bytes.len() - before) / 4
+    });
+    let sparse_at = bytes.len();
+    if is_odd {
+        bytes.extend(model.positions[0].into_iter().flat_map(f32::to_le_bytes));
+        bytes.extend([0, 0]);
+    }
+    GltfBuffer { bytes, stride, points_end, counts, sparse_at }
+}
+
 /// The JSON and the buffer of a glTF file: two primitives with a material each.
 fn gltf_parts(model: &Model, uri: Option<&str>, is_odd: bool) -> (String, Vec<u8>) {
-    let stride = if is_odd { 20 } else { 12 };
-    let mut buffer = Vec::new();
-    for position in &model.positions {
-        buffer.extend(position.iter().flat_map(|number| number.to_le_bytes()));
-        buffer.resize(buffer.len() + stride - 12, 0xff);
-    }
-    let points_end = buffer.len();
-    let triangles = fans(model);
-    let mut counts = [0; 2];
-    for (count, wanted) in counts.iter_mut().zip([true, false]) {
-        for (triangle, _) in triangles.iter().filter(|triangle| triangle.1 == wanted) {
-            buffer.extend(triangle.iter().flat_map(|corner| corner.to_le_bytes()));
-            *count += 3;
-        }
-    }
-    let sparse_at = buffer.len();
-    let mut sparse = String::new();
-    if is_odd {
-        // The first point is given once more as a sparse value.
-        buffer.extend(model.positions[0].into_iter().flat_map(f32::to_le_bytes));
-        buffer.extend([0, 0]);
-        sparse = String::from(
-            r#","sparse":{"count":1,"indices":{"bufferView":2,"byteOffset":12,"componentType":5123},"values":{"bufferView":2}}"#,
-        );
-    }
+    let GltfBuffer { bytes, stride, points_end, counts, sparse_at } = gltf_buffer(model, is_odd);
+    let sparse = if is_odd {
+        r#","sparse":{"count":1,"indices":{"bufferView":2,"byteOffset":12,"componentType":5123},"values":{"bufferView":2}}"#
+    } else {
+        ""
+    };
     let uri = uri.map_or(String::new(), |uri| format!(r#","uri":"{uri}""#));
-    let first_end = points_end + 4 * counts[0];
-    let mut primitives = Vec::new();
-    let mut accessors = format!(
+    let mut accessors = vec![format!(
         r#"{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"{sparse}}}"#,
         model.positions.len()
-    );
+    )];
+    let mut primitives = Vec::new();
     for (material, (start, count)) in
         [(0, counts[0]), (4 * counts[0], counts[1])].into_iter().enumerate()
     {
         if count > 0 {
-            let number = primitives.len() + 1;
-            write!(
-                accessors,
-                r#",{{"bufferView":1,"byteOffset":{start},"componentType":5125,"count":{count},"type":"SCALAR"}}"#
-            )
-            .unwrap();
+            let number = accessors.len();
+            accessors.push(format!(
+                r#"{{"bufferView":1,"byteOffset":{start},"componentType":5125,"count":{count},"type":"SCALAR"}}"#
+            ));
             primitives.push(format!(
                 r#"{{"attributes":{{"POSITION":0}},"indices":{number},"material":{material}}}"#
             ));
@@ -203,17 +217,18 @@ fn gltf_parts(model: &Model, uri: Option<&str>, is_odd: bool) -> (String, Vec<u8
     let json = format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"name":"part"}}],
             "meshes":[{{"primitives":[{}]}}],"materials":[{{"name":"non_design"}},{{"name":"design"}}],
-            "accessors":[{accessors}],
+            "accessors":[{}],
             "bufferViews":[{{"buffer":0,"byteLength":{points_end},"byteStride":{stride}}},
                            {{"buffer":0,"byteOffset":{points_end},"byteLength":{}}},
                            {{"buffer":0,"byteOffset":{sparse_at},"byteLength":{}}}],
             "buffers":[{{"byteLength":{}{uri}}}]}}"#,
         primitives.join(","),
-        first_end - points_end + 4 * counts[1],
-        buffer.len() - sparse_at,
-        buffer.len(),
+        accessors.join(","),
+        4 * (counts[0] + counts[1]),
+        bytes.len() - sparse_at,
+        bytes.len(),
     );
-    (json, buffer)
+    (json, bytes)
 }
 
 /// glTF with its buffer written out.
