@@ -28,7 +28,7 @@ pub(crate) struct Front {
 /// What a flood between two fronts found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
-    /// A plain piece of tube; its faces are in [`Band::faces`].
+    /// A plain piece of tube of [`Band::faces`].
     Tube,
     /// The surface goes on elsewhere: another front, or one behind.
     Splits,
@@ -45,9 +45,7 @@ const ROUGHNESS: f64 = 0.22;
 /// Flood of the band between two fronts; keeps its work arrays from band to band.
 #[derive(Debug)]
 pub(crate) struct Band {
-    /// Faces of the last flood.
-    pub(crate) faces: Vec<FaceId>,
-    /// The same, by the sides over which they were reached.
+    /// Faces of the last flood, by the sides over which they were reached.
     reached: Vec<Reached>,
     face_stamp: Vec<u32>,
     side_stamp: Vec<u32>,
@@ -57,7 +55,7 @@ pub(crate) struct Band {
 
 /// A side over which a triangle was reached, and the levels of its ends.
 #[derive(Clone, Copy, Debug)]
-struct Reached {
+pub(crate) struct Reached {
     side: HalfEdgeId,
     levels: [u8; 2],
 }
@@ -65,7 +63,6 @@ struct Reached {
 impl Band {
     pub(crate) fn new(mesh: &HalfEdgeMesh) -> Self {
         Self {
-            faces: Vec::new(),
             reached: Vec::new(),
             face_stamp: vec![0; mesh.face_count()],
             side_stamp: vec![0; 3 * mesh.face_count()],
@@ -116,6 +113,21 @@ impl Band {
         Verdict::Tube
     }
 
+    /// The faces of the last flood.
+    pub(crate) fn faces(&self) -> impl Iterator<Item = FaceId> {
+        self.reached.iter().map(|r| r.side.face())
+    }
+
+    /// Takes the faces of the last flood out.
+    pub(crate) fn take(&mut self) -> Vec<Reached> {
+        std::mem::take(&mut self.reached)
+    }
+
+    /// Puts back what was taken out.
+    pub(crate) fn put(&mut self, reached: Vec<Reached>) {
+        self.reached = reached;
+    }
+
     fn begin(&mut self) {
         if self.stamp == u32::MAX {
             self.face_stamp.fill(0);
@@ -123,7 +135,6 @@ impl Band {
             self.stamp = 0;
         }
         self.stamp += 1;
-        self.faces.clear();
         self.reached.clear();
     }
 
@@ -133,7 +144,6 @@ impl Band {
         let seen = &mut self.face_stamp[face.index()];
         if *seen != self.stamp {
             *seen = self.stamp;
-            self.faces.push(face);
             self.reached.push(Reached { side, levels });
         }
     }

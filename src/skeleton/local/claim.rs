@@ -73,12 +73,12 @@ impl<'a> Claims<'a> {
     }
 
     /// Claims the part of `faces` above `lower` and below `upper`.
-    pub(crate) fn add(&mut self, lower: Plane, upper: Plane, faces: &[FaceId]) {
+    pub(crate) fn add(&mut self, lower: Plane, upper: Plane, faces: impl Iterator<Item = FaceId>) {
         let band = self.bands.len() as u32;
         self.bands.push((lower, upper));
         for face in faces {
             let next = self.first[face.index()];
-            let leap = self.leap_before(*face, next, &lower, &upper);
+            let leap = self.leap_before(face, next, &lower, &upper);
             self.first[face.index()] = self.claims.len() as u32;
             self.claims.push(Claim { face: face.0, band, next, leap });
         }
@@ -237,9 +237,9 @@ mod tests {
             let lean = f64::from(k % 5) * 0.3 - 0.6;
             let band = (plane(x, lean), plane(x + 0.25, lean));
             let mark = claims.mark();
-            claims.add(plane(0.0, 0.0), plane(900.0, 0.0), &faces);
+            claims.add(plane(0.0, 0.0), plane(900.0, 0.0), faces.iter().copied());
             claims.take_back(mark);
-            claims.add(band.0, band.1, &faces);
+            claims.add(band.0, band.1, faces.iter().copied());
             bands.push(band);
         }
         for face in faces {

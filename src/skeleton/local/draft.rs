@@ -8,9 +8,9 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::axis::{Axis, axis_at_start};
 use super::junction::meeting_point;
-use super::march::Tube;
 use super::patch::CutSide;
 use super::search::Found;
+use super::way::Tube;
 use crate::mesh::id::HalfEdgeId;
 use crate::mesh::{InterfaceKind, Surface};
 use crate::skeleton::inside::end_in;

@@ -24,6 +24,7 @@ use nalgebra::{Unit, Vector3};
 
 use super::band::{Band, Front, Verdict};
 use super::claim::Claims;
+use super::way::{Tube, Way, behind, length};
 use crate::mesh::contour::{Contour, Extent, Plane, entry, follow};
 use crate::mesh::id::{FaceId, HalfEdgeId};
 use crate::mesh::{HalfEdgeMesh, Surface};
@@ -49,19 +50,6 @@ pub(crate) enum Stop {
     Passed,
 }
 
-/// A marched piece of branch: fronts from one end to the other.
-#[derive(Clone, Debug)]
-pub(crate) struct Tube {
-    pub(crate) fronts: Vec<Front>,
-}
-
-impl Tube {
-    /// The front in the middle.
-    pub(crate) fn middle(&self) -> &Front {
-        &self.fronts[self.fronts.len() / 2]
-    }
-}
-
 /// Step of the march, in radii of the last front. Halved, the bands between two fronts hold too
 /// few triangles of a coarse mesh; doubled, a band may hide a thin branch between its fronts.
 const STEP: f64 = 0.5;
@@ -69,6 +57,11 @@ const STEP: f64 = 0.5;
 /// Shortest step, in the wanted one, with which a march tries to get closer to its end. Eighths:
 /// the end of a branch is found to a sixteenth of its radius.
 const SHORTEST_STEP: f64 = 0.125;
+
+/// What small steps add at the two ends of a march together, in radii of its seed: seven eighths of a
+/// step at each, and more where the march goes on behind a narrow place. A march that is too short
+/// by more is given up before its ends are looked for; with one radius a tube of a bracket was.
+const ROOM: f64 = 1.25;
 
 /// How far back the direction is taken from, in radii. Shorter and the steps of voxel surfaces
 /// turn it (y_form: 20° at one radius); longer and it lags behind in bends.
@@ -101,7 +94,9 @@ pub(crate) struct March<'a> {
     least_band: f64,
     band: Band,
     /// The contour followed last.
-    contour: Contour,
+    pub(super) contour: Contour,
+    /// The best contour at a place.
+    pub(super) best: Contour,
 }
 
 impl<'a> March<'a> {
@@ -113,6 +108,7 @@ impl<'a> March<'a> {
             least_band: surface.design_area() / MOST_BANDS.max(surface.mesh.face_count()) as f64,
             band: Band::new(&surface.mesh),
             contour: Contour::default(),
+            best: Contour::default(),
         }
     }
 
@@ -139,23 +135,32 @@ impl<'a> March<'a> {
                 return Ok(None);
             }
         }
-        let back_faces = back_first.is_some().then(|| self.band.faces.clone());
+        let back_band = back_first.is_some().then(|| self.band.take());
         let mark = self.claims.mark();
-        let ahead = self.one_way(seed, Some(ahead_first), observer)?;
+        let room = ROOM * seed.extent.radius();
+        let mut ahead = Way::from(seed);
+        self.go_on(&mut ahead, 1.0, Some(ahead_first), observer)?;
         // What was claimed ahead may stand in the way of the step back.
-        let first = back_first.filter(|_| ahead.len() == 1).map(Ok);
-        if let Some(faces) = back_faces {
-            self.band.faces = faces;
+        let first = back_first.filter(|_| ahead.fronts.len() == 1).map(Ok);
+        if let Some(band) = back_band {
+            self.band.put(band);
         }
-        let behind =
-            back.map(|back| self.one_way(back, first, observer)).transpose()?.unwrap_or_default();
-        if length(&ahead, 1) + length(&behind, 0) < shortest {
+        let mut behind = back.map(Way::from).unwrap_or_default();
+        self.go_on(&mut behind, 1.0, first, observer)?;
+        let reached =
+            |ahead: &Way, behind: &Way| length(&ahead.fronts, 1) + length(&behind.fronts, 0);
+        let may_reach = reached(&ahead, &behind) + room >= shortest;
+        if may_reach {
+            self.go_on(&mut ahead, SHORTEST_STEP, None, observer)?;
+            self.go_on(&mut behind, SHORTEST_STEP, None, observer)?;
+        }
+        if !may_reach || reached(&ahead, &behind) < shortest {
             self.claims.take_back(mark);
             return Ok(None);
         }
         let mut fronts: Vec<Front> =
-            behind.iter().skip(1).rev().filter_map(|f| self.reversed(f)).collect();
-        fronts.extend(ahead);
+            behind.fronts.iter().skip(1).rev().filter_map(|f| self.reversed(f)).collect();
+        fronts.extend(ahead.fronts);
         Ok(Some(Tube { fronts }))
     }
 
@@ -165,36 +170,35 @@ impl<'a> March<'a> {
         // Points on the plane count as above on either side, so the crossed sides may differ.
         let start =
             front.contour.half_edges.iter().find_map(|h| entry(self.mesh(), &plane, h.face()));
-        self.front(plane, start?, |_| true)
+        let extent = self.follow(&plane, start?, |_| true)?;
+        Some(Front { plane, contour: self.contour.clone(), extent })
     }
 
-    /// Marches from `seed` along its normal; all fronts, the seed first. The first step may have been
-    /// made already.
-    fn one_way(
+    /// Marches on from the last front along its normal until no step of `finest` is possible. The first
+    /// step may have been made already.
+    fn go_on(
         &mut self,
-        seed: Front,
+        Way { fronts, part }: &mut Way,
+        finest: f64,
         mut first: Option<Result<Front, Stop>>,
         observer: &mut impl Observer,
-    ) -> Result<Vec<Front>, SkeletonError> {
-        let mut fronts = vec![seed];
-        let mut part = 1.0;
+    ) -> Result<(), SkeletonError> {
         // Every step advances by at least a sixteenth of a radius and no band is passed twice; the
         // count ends a march towards the tip of a needle, where radii and steps go to nothing.
-        while fronts.len() < MOST_FRONTS {
+        while *part >= finest && (1..MOST_FRONTS).contains(&fronts.len()) {
             keep_on(observer)?;
-            match first.take().unwrap_or_else(|| self.advance(&fronts, part)) {
+            match first.take().unwrap_or_else(|| self.advance(fronts, *part)) {
                 Ok(front) => {
                     let (lower, upper) = (fronts[fronts.len() - 1].plane, front.plane);
-                    self.claims.add(lower, upper, &self.band.faces);
+                    self.claims.add(lower, upper, self.band.faces());
                     fronts.push(front);
-                    part = f64::min(1.0, 2.0 * part);
+                    *part = f64::min(1.0, 2.0 * *part);
                 }
-                Err(Stop::Passed) => return Ok(fronts),
-                Err(_) if part > SHORTEST_STEP => part *= 0.5,
-                Err(_) => return Ok(fronts),
+                Err(Stop::Passed) => *part = 0.0,
+                Err(_) => *part *= 0.5,
             }
         }
-        Ok(fronts)
+        Ok(())
     }
 
     /// One step of the march, `part` of the wanted step long.
@@ -291,20 +295,9 @@ impl<'a> March<'a> {
         })
     }
 
-    /// The front over the crossed side `start`, if it encloses material and every point passes.
-    pub(crate) fn front(
-        &mut self,
-        plane: Plane,
-        start: HalfEdgeId,
-        keep_on: impl FnMut(&nalgebra::Point3<f64>) -> bool,
-    ) -> Option<Front> {
-        let extent = self.follow(&plane, start, keep_on)?;
-        Some(Front { plane, contour: self.contour.clone(), extent })
-    }
-
     /// Follows the contour over the crossed side `start` into `self.contour`; what it encloses, if
     /// that is material and every point passes.
-    fn follow(
+    pub(super) fn follow(
         &mut self,
         plane: &Plane,
         start: HalfEdgeId,
@@ -317,25 +310,6 @@ impl<'a> March<'a> {
         let extent = Extent::of(contour, plane);
         (extent.area > 0.0).then_some(extent)
     }
-}
-
-/// Length of a march across its fronts, mm: centroids that wander sideways, as those of slant cuts
-/// through a joint do, come no farther. `which` of the two fronts of a step says what is across.
-fn length(fronts: &[Front], which: usize) -> f64 {
-    fronts
-        .windows(2)
-        .map(|w| (w[1].extent.centroid - w[0].extent.centroid).dot(&w[which].plane.normal))
-        .sum()
-}
-
-/// The front at least `distance` behind the last one, or the first.
-fn behind(fronts: &[Front], distance: f64) -> &Front {
-    let last = fronts[fronts.len() - 1].extent.centroid;
-    fronts
-        .iter()
-        .rev()
-        .find(|f| (f.extent.centroid - last).norm() >= distance)
-        .unwrap_or(&fronts[0])
 }
 
 /// From a triangle cut by `lower`, climbs over the surface to one cut by `upper`; its entry side.

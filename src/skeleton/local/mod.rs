@@ -37,6 +37,7 @@ mod seed;
 mod simplify;
 mod stocky;
 mod trend;
+mod way;
 
 use self::curve::MOST_PIECES;
 use self::draft::{Draft, HubKind};

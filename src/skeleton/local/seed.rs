@@ -5,12 +5,12 @@
 //! normals have least of (on a rod the normals are all across its axis), and the smallest section
 //! is taken. Thesis §5.2.2: the frame is found locally.
 
-use nalgebra::{Matrix3, SymmetricEigen, Unit, Vector3};
+use nalgebra::{Matrix3, Point3, SymmetricEigen, Unit, Vector3};
 
 use super::band::Front;
 use super::march::March;
 use crate::mesh::HalfEdgeMesh;
-use crate::mesh::contour::{Contour, Plane, entry};
+use crate::mesh::contour::{Contour, Extent, Plane, entry};
 use crate::mesh::id::FaceId;
 use crate::skeleton::places::{Place, longest_side};
 
@@ -29,44 +29,57 @@ impl March<'_> {
     pub(crate) fn section_at(&mut self, place: &Place, limit: f64) -> Option<Front> {
         let normal = Unit::try_new(self.surface.mesh.doubled_area_vector(place.face), 0.0)?;
         let (u, v) = tangents(&self.surface.mesh, place.face, &normal);
-        let mut best: Option<Front> = None;
+        let mut best: Option<Cut> = None;
         for k in 0..DIRECTIONS {
             let angle = std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
             let direction = Unit::new_normalize(u * angle.cos() + v * angle.sin());
             let limit =
                 best.as_ref().map_or(limit, |b| limit.min(2.0 * REACH_OVER_BEST * b.extent.reach));
-            let Some(front) = self.section_through(place, direction, limit) else { continue };
-            if best.as_ref().is_none_or(|b| front.extent.area < b.extent.area) {
-                best = Some(front);
+            let Some(cut) = self.section_through(place, direction, limit) else { continue };
+            if best.as_ref().is_none_or(|b| cut.extent.area < b.extent.area) {
+                best = Some(cut);
+                std::mem::swap(&mut self.contour, &mut self.best);
             }
         }
-        best.map(|front| self.turned_across(place, front, limit))
+        let Cut { plane, extent } = self.turned_across(place, best?, limit);
+        Some(Front { plane, contour: self.best.clone(), extent })
     }
 
-    fn turned_across(&mut self, place: &Place, mut front: Front, limit: f64) -> Front {
+    /// Turns the plane of the best contour so far across the rod.
+    fn turned_across(&mut self, place: &Place, mut best: Cut, limit: f64) -> Cut {
         for _ in 0..TURNS {
-            let Some(axis) = axis_of(&self.surface.mesh, &front.contour) else { break };
-            let axis = if axis.dot(&front.plane.normal) < 0.0 { -axis } else { axis };
-            let cosine = axis.dot(&front.plane.normal);
+            let Some(axis) = axis_of(&self.surface.mesh, &self.best) else { break };
+            let axis = if axis.dot(&best.plane.normal) < 0.0 { -axis } else { axis };
+            let cosine = axis.dot(&best.plane.normal);
             let Some(turned) = self.section_through(place, axis, limit) else { break };
-            front = turned;
+            best = turned;
+            std::mem::swap(&mut self.contour, &mut self.best);
             if cosine > 0.999_9 {
                 break;
             }
         }
-        front
+        best
     }
 
+    /// Cuts the surface across `direction` at a place; leaves the contour in `self.contour`.
     fn section_through(
         &mut self,
         place: &Place,
         direction: Unit<Vector3<f64>>,
         limit: f64,
-    ) -> Option<Front> {
+    ) -> Option<Cut> {
         let plane = Plane::new(place.point, direction);
         let start = entry(&self.surface.mesh, &plane, place.face)?;
-        self.front(plane, start, |p| (p - place.point).norm_squared() <= limit * limit)
+        let is_near = |p: &Point3<f64>| (p - place.point).norm_squared() <= limit * limit;
+        let extent = self.follow(&plane, start, is_near)?;
+        Some(Cut { plane, extent })
     }
+}
+
+/// A plane and what its contour encloses.
+struct Cut {
+    plane: Plane,
+    extent: Extent,
 }
 
 /// Tangents tied to the triangle, so that they turn with the model.
