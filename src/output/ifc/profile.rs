@@ -1,5 +1,7 @@
 //! Profile definitions of IFC. Their origin is the middle of the bounding box; ours the centroid.
 
+use std::fmt::{self, Display, Formatter};
+
 use nalgebra::Point2;
 
 use crate::output::part21::{Fault, Id, List, Part21, Real, Text};
@@ -11,59 +13,40 @@ const PER_QUARTER: usize = 12;
 
 /// Writes the definition of a profile.
 pub(super) fn write(part: &mut Part21<'_>, profile: &Profile, name: &str) -> Result<Id, Fault> {
-    if let Shape::Freeform(_) = profile.shape {
-        return freeform(part, profile, name);
-    }
+    let round = |radius: f64| (radius > 0.0).then_some(radius);
+    let (entity, sizes) = match profile.shape {
+        Shape::Freeform(_) => return freeform(part, profile, name),
+        Shape::Round { d } => ("CIRCLE", vec![Some(0.5 * d)]),
+        Shape::Tube { d, t } => ("CIRCLEHOLLOW", vec![Some(0.5 * d), Some(t)]),
+        Shape::Rectangle { b, h } => ("RECTANGLE", vec![Some(b), Some(h)]),
+        Shape::Ellipse { b, h } => ("ELLIPSE", vec![Some(0.5 * b), Some(0.5 * h)]),
+        Shape::Box { b, h, t, r_o, r_i } => {
+            ("RECTANGLEHOLLOW", vec![Some(b), Some(h), Some(t), round(r_i), round(r_o)])
+        }
+        Shape::I { h, b, t_w, t_f, r } => {
+            ("ISHAPE", vec![Some(b), Some(h), Some(t_w), Some(t_f), round(r), None, None])
+        }
+        Shape::C { h, b, t_w, t_f, r } => {
+            ("USHAPE", vec![Some(h), Some(b), Some(t_w), Some(t_f), round(r), None, None])
+        }
+        Shape::L { h, b, t, r_1, r_2 } => {
+            ("LSHAPE", vec![Some(h), Some(b), Some(t), round(r_1), round(r_2), None])
+        }
+    };
     let at = middle(part, profile)?;
-    let head = format!(".AREA.,{},{at}", Text(name));
-    let r = Real;
-    let radius = |x: f64| if x > 0.0 { Real(x).to_string() } else { "$".to_owned() };
-    match profile.shape {
-        Shape::Round { d } => {
-            part.entity(format_args!("IFCCIRCLEPROFILEDEF({head},{})", r(0.5 * d)))
-        }
-        Shape::Tube { d, t } => {
-            part.entity(format_args!("IFCCIRCLEHOLLOWPROFILEDEF({head},{},{})", r(0.5 * d), r(t)))
-        }
-        Shape::Rectangle { b, h } => {
-            part.entity(format_args!("IFCRECTANGLEPROFILEDEF({head},{},{})", r(b), r(h)))
-        }
-        Shape::Ellipse { b, h } => {
-            part.entity(format_args!("IFCELLIPSEPROFILEDEF({head},{},{})", r(0.5 * b), r(0.5 * h)))
-        }
-        Shape::Box { b, h, t, r_o, r_i } => part.entity(format_args!(
-            "IFCRECTANGLEHOLLOWPROFILEDEF({head},{},{},{},{},{})",
-            r(b),
-            r(h),
-            r(t),
-            radius(r_i),
-            radius(r_o)
-        )),
-        Shape::I { h, b, t_w, t_f, r: fillet } => part.entity(format_args!(
-            "IFCISHAPEPROFILEDEF({head},{},{},{},{},{},$,$)",
-            r(b),
-            r(h),
-            r(t_w),
-            r(t_f),
-            radius(fillet)
-        )),
-        Shape::C { h, b, t_w, t_f, r: fillet } => part.entity(format_args!(
-            "IFCUSHAPEPROFILEDEF({head},{},{},{},{},{},$,$)",
-            r(h),
-            r(b),
-            r(t_w),
-            r(t_f),
-            radius(fillet)
-        )),
-        Shape::L { h, b, t, r_1, r_2 } => part.entity(format_args!(
-            "IFCLSHAPEPROFILEDEF({head},{},{},{},{},{},$)",
-            r(h),
-            r(b),
-            r(t),
-            radius(r_1),
-            radius(r_2)
-        )),
-        Shape::Freeform(_) => freeform(part, profile, name),
+    let (name, sizes) = (Text(name), Sizes(sizes));
+    part.entity(format_args!("IFC{entity}PROFILEDEF(.AREA.,{name},{at}{sizes})"))
+}
+
+/// Sizes in the order of an entity, each behind a comma; `None` is one that is not given.
+struct Sizes(Vec<Option<f64>>);
+
+impl Display for Sizes {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|size| match size {
+            Some(size) => write!(f, ",{}", Real(*size)),
+            None => f.write_str(",$"),
+        })
     }
 }
 
