@@ -12,6 +12,9 @@ use crate::wording::{counted, figures};
 const WIDTH: usize = 80;
 const INDENT: usize = 12;
 
+/// Findings of one kind that are printed: as many as fill no screen. A noisy mesh has thousands.
+const MOST_OF_A_KIND: usize = 20;
+
 impl Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut row = |name: &str, text: &str| {
@@ -43,8 +46,8 @@ impl Display for Summary {
             row("frame", &frame_line(frame))?;
             row("volume", &volume_line(frame))?;
         }
-        for finding in &self.findings {
-            row(if finding.breach { "BREACH" } else { "note" }, &finding_line(finding))?;
+        for (name, text) in finding_rows(&self.findings) {
+            row(name, &text)?;
         }
         Ok(())
     }
@@ -131,6 +134,23 @@ pub(in crate::output) fn volume_line(frame: &FrameSummary) -> String {
     )
 }
 
+/// The findings by name and text, of each kind the first ones.
+fn finding_rows(findings: &[FindingSummary]) -> Vec<(&'static str, String)> {
+    let mut rows = Vec::new();
+    for alike in findings.chunk_by(|a, b| (a.breach, a.kind) == (b.breach, b.kind)) {
+        let name = if alike[0].breach { "BREACH" } else { "note" };
+        rows.extend(alike.iter().take(MOST_OF_A_KIND).map(|one| (name, finding_line(one))));
+        let left = alike.len().saturating_sub(MOST_OF_A_KIND);
+        if left > 0 {
+            rows.push((
+                name,
+                format!("and {} more of this kind: --json lists them", grouped(left)),
+            ));
+        }
+    }
+    rows
+}
+
 fn finding_line(finding: &FindingSummary) -> String {
     match finding.place {
         Some([x, y, z]) => {
@@ -188,6 +208,24 @@ mod tests {
         assert_eq!(wrapped("red \u{1b}[31m", 20), ["red ?[31m"]);
         assert_eq!(wrapped("at (1,\u{a0}2)", 5), ["at", "(1, 2)"]);
         assert_eq!(wrapped("", 5), [""]);
+    }
+
+    #[test]
+    fn of_many_findings_of_a_kind_the_first_are_printed_and_the_rest_counted() {
+        let find = |kind, text: &str| FindingSummary {
+            kind,
+            breach: false,
+            text: text.to_owned(),
+            place: None,
+        };
+        let mut findings = vec![find("deviation", "bent"); MOST_OF_A_KIND + 1200];
+        findings.push(find("joint", "short"));
+        let rows = finding_rows(&findings);
+        let texts: Vec<&str> = rows.iter().map(|(_, text)| text.as_str()).collect();
+        assert_eq!(texts[..MOST_OF_A_KIND], ["bent"; MOST_OF_A_KIND]);
+        let last = ["and 1,200 more of this kind: --json lists them", "short"];
+        assert_eq!(texts[MOST_OF_A_KIND..], last);
+        assert_eq!(finding_rows(&findings[..MOST_OF_A_KIND]).len(), MOST_OF_A_KIND);
     }
 
     #[test]
