@@ -37,10 +37,15 @@ pub(super) fn hold_nodes_inside(making: &mut Making<'_>, tree: &TriangleTree) ->
     for piece in &making.pieces {
         piece.ends.iter().for_each(|&n| pieces_at[n].push(piece));
     }
-    let mut leaving: Vec<bool> =
-        pieces_at.iter().enumerate().map(|(n, pieces)| has_left(making, n, pieces, tree)).collect();
+    // What is as firm as can be need not be asked again, nor what is known to leave: in a noisy mesh
+    // that crosses itself these are most, and a ray meets many triangles.
+    let is_loose = |n: usize| making.anchors[n].hold < FIRMEST;
+    let leaves =
+        |(n, pieces): (usize, &Vec<&Piece>)| is_loose(n) && has_left(making, n, pieces, tree);
+    let mut leaving: Vec<bool> = pieces_at.iter().enumerate().map(leaves).collect();
     for piece in &making.pieces {
-        if leaves_material(making, piece, tree) {
+        let is_open = piece.ends.iter().any(|&n| is_loose(n) && !leaving[n]);
+        if is_open && leaves_material(making, piece, tree) {
             piece.ends.iter().for_each(|&n| leaving[n] = true);
         }
     }
