@@ -234,6 +234,7 @@ fn what_is_wrong_with_an_option_of_a_file_is_told_with_its_line() -> Outcome {
     for (text, fault) in [
         ("profil = \"round\"\n", "line 1: there is no option profil"),
         ("# ours\n\nstrict = true\nstep = 5\n", "line 4: --step must lie in [0.1, 2], but is 5"),
+        ("step = 1\n\nkerf = = 1\n", "line 3: "),
         ("\nkerf = -1\n", "line 2: --kerf must be"),
         ("json = true\nstep = \"x\"", "line 2: invalid value 'x' for '--step <RADII>'"),
         ("joints = \"weld\"\nstep = 1", "line 1: invalid value 'weld' for '--joints"),

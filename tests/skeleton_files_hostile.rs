@@ -17,17 +17,41 @@ fn the_line_of_a_fault_is_named() {
         ("v 0 0 0\nv 1 0 x\n", Cg, "memory.cg: line 2: expected three coordinates, found `x`"),
         ("v 0 0\n", Cg, "memory.cg: line 1: expected three coordinates, found the end of the line"),
         ("v 0 0 0\nw\n", Cg, "memory.cg: line 2: expected `v` or `e`, found `w`"),
-        ("v 0 0 nan\n", Obj, "memory.obj: line 1: `nan` is not a usable number"),
-        ("v 0 0 1e300\n", Obj, "memory.obj: line 1: `1e300` is not a usable number"),
-        ("v 0 0 0\nl 1 9\n", Obj, "memory.obj: line 2: no point 9; there are 1"),
-        ("v 0 0 0\nl 1 -2\n", Obj, "memory.obj: line 2: no point -2; there are 1"),
+        (
+            "v 0 0 nan\n",
+            Obj,
+            "memory.obj: line 1: `nan` is no number that can be a place; export the skeleton again",
+        ),
+        (
+            "v 0 0 1e300\n",
+            Obj,
+            "memory.obj: line 1: `1e300` is no number that can be a place; export the skeleton again",
+        ),
+        (
+            "v 0 0 0\nl 1 9\n",
+            Obj,
+            "memory.obj: line 2: a segment names point 9, but the file has 1 point",
+        ),
+        (
+            "v 0 0 0\nl 1 -2\n",
+            Obj,
+            "memory.obj: line 2: a segment names point -2, but the file has 1 point",
+        ),
         (
             "v 0 0 0\nl 1\n",
             Obj,
             "line 2: expected the numbers of two or more points, found the end",
         ),
-        ("v 0 0 0\nl 1 0\n", Obj, "memory.obj: line 2: no point 0; there are 1"),
-        ("1 0 0 0 0 1 -1\n2 0 0 0 0 1 7\n", Swc, "memory.swc: line 2: no point 7; there are 2"),
+        (
+            "v 0 0 0\nl 1 0\n",
+            Obj,
+            "memory.obj: line 2: a segment names point 0, but the file has 1 point",
+        ),
+        (
+            "1 0 0 0 0 1 -1\n2 0 0 0 0 1 7\n",
+            Swc,
+            "memory.swc: line 2: a segment names point 7, but the file has 2 points",
+        ),
         ("1 0 0 0 0 1 -1\n1 0 0 0 0 1 1\n", Swc, "line 2: expected a new number for each point"),
         (
             "ply\nformat ascii 1.0\nelement edge 1\nproperty int start\nend_header\n0\n",
@@ -73,7 +97,7 @@ fn faults_of_json_have_line_or_part() {
         (
             r#"{"format":"beamwright-skeleton","version":1,"unit":"mm",
           "points":[{"id":0,"position":[0,0,0]}],"branches":[{"points":[0,5]}]}"#,
-            "branches[0].points[1]: no point 5; there are 1",
+            "branches[0].points[1]: a segment names point 5, but the file has 1 point",
         ),
         (
             r#"{"format":"beamwright-skeleton","version":1,"unit":"mm",
@@ -148,7 +172,11 @@ fn a_node_file_needs_its_connectivity_file() {
     assert_eq!(read_pair("0,0,0\n1,0,0\n", "2 0 NaN\n1\n\n").unwrap().points.len(), 2);
     for (n, c, expected) in [
         ("0 0 0\n1 0\n", "2\n1\n", "part_nodes.txt: line 2: expected three coordinates"),
-        ("0 0 0\n1 0 0\n", "2\n3\n", "part_connectivity.txt: line 2: no point 3; there are 2"),
+        (
+            "0 0 0\n1 0 0\n",
+            "2\n3\n",
+            "part_connectivity.txt: line 2: a segment names point 3, but the file has 2 points",
+        ),
         ("0 0 0\n1 0 0\n", "2\n1\n1\n", "line 3: expected no more rows than the 2 nodes"),
         ("0 0 0\nNaN NaN NaN\n", "2\n1\n", "line 1: expected no segment to node 2, which is NaN"),
         ("0 0 0\n1 0 0\n", "x\n", "line 1: expected numbers of nodes, found `x`"),

@@ -92,7 +92,7 @@ pub enum ReadError {
     },
 
     /// The file is larger than [`ReadOptions::max_bytes`](crate::ReadOptions::max_bytes).
-    #[error("cannot read {}: {size} bytes are more than the limit of {limit}", path.display())]
+    #[error("cannot read {}: {size} bytes are more than the limit of {limit}; reduce or split the mesh", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -110,7 +110,11 @@ pub enum ReadError {
     },
 
     /// The file is well-formed but has no surface.
-    #[error("cannot read {}: it has {points} points but no faces; a surface mesh is needed", path.display())]
+    #[error(
+        "cannot read {}: it has {points} point{} but no faces; export the surface as a mesh of triangles",
+        path.display(),
+        if *points == 1 { "" } else { "s" }
+    )]
     NoFaces {
         /// The file.
         path: PathBuf,

@@ -349,6 +349,9 @@ mod tests {
     #[test]
     fn a_file_beyond_the_limit_is_not_read() {
         let error = Input::from_bytes(Path::new("x.off"), b"12345", 4).err().unwrap();
-        assert_eq!(error.to_string(), "cannot read x.off: 5 bytes are more than the limit of 4");
+        assert_eq!(
+            error.to_string(),
+            "cannot read x.off: 5 bytes are more than the limit of 4; reduce or split the mesh"
+        );
     }
 }

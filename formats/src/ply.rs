@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
     fn point(&mut self, point: &Point, place: impl Fn() -> Place) -> Result<(), ReadError> {
         if self.builder.point(point.position).is_err() {
             let [x, y, z] = point.position;
-            let number = format!("the point ({x}, {y}, {z})");
+            let number = format!("the point ({x:?}, {y:?}, {z:?})");
             return Err(ReadError::NotFinite {
                 path: self.path.to_owned(),
                 place: place(),

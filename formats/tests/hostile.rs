@@ -162,7 +162,12 @@ fn a_file_beyond_the_limit_is_refused() {
     let (_folder, path) = file("part.off", TRIANGLE_OFF);
     let options = ReadOptions { max_bytes: 10, ..ReadOptions::default() };
     let error = read(&path, &options).unwrap_err();
-    assert!(error.to_string().ends_with("36 bytes are more than the limit of 10"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .ends_with("36 bytes are more than the limit of 10; reduce or split the mesh"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -175,7 +180,7 @@ fn a_surface_is_needed() {
             "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\nend_header\n0 0 0\n",
         ),
     ] {
-        let expected = "it has 1 points but no faces; a surface mesh is needed";
+        let expected = "it has 1 point but no faces; export the surface as a mesh of triangles";
         assert_eq!(message(name, content), format!("cannot read {name}: {expected}"));
     }
 }

@@ -65,13 +65,12 @@ impl Words {
             return Ok(Self { all: typed, file: None });
         };
         let mut file = FileOptions { path: path.into(), lines: BTreeMap::new() };
-        let text = std::fs::read_to_string(&file.path);
-        let text = text.map_err(|e| Failure::usage(file.fault(&e)))?;
-        let table: BTreeMap<Spanned<String>, Value> =
-            toml::from_str(&text).map_err(|e| Failure::usage(file.fault(&e)))?;
+        let text = read(&file.path).map_err(|fault| Failure::usage(file.fault(&fault)))?;
+        let table: BTreeMap<Spanned<String>, Value> = toml::from_str(&text)
+            .map_err(|e| Failure::usage(file.fault(&in_one_line(&e, &text))))?;
         let mut words = Vec::new();
         for (name, value) in &table {
-            let line = 1 + text[..name.span().start].matches('\n').count();
+            let line = line_of(text.as_bytes(), name.span().start);
             let fault = |what: String| Failure::usage(file.fault(&format!("line {line}: {what}")));
             let name = name.as_ref();
             let of = |command: &Command| flag(command, name).cloned();
@@ -98,6 +97,26 @@ impl Words {
         let line = file.lines.get(&named[..end])?;
         Some(file.fault(&format!("line {line}: {fault}")))
     }
+}
+
+/// The text of a file.
+fn read(path: &Path) -> Result<String, String> {
+    let bytes = std::fs::read(path).map_err(|e| e.to_string())?;
+    String::from_utf8(bytes).map_err(|e| {
+        let line = line_of(e.as_bytes(), e.utf8_error().valid_up_to());
+        format!("line {line}: not UTF-8 text; save the file as UTF-8")
+    })
+}
+
+/// Line of a place in a text, counted from 1.
+fn line_of(text: &[u8], place: usize) -> usize {
+    1 + text.iter().take(place).filter(|&&byte| byte == b'\n').count()
+}
+
+/// A fault of the text itself.
+fn in_one_line(fault: &toml::de::Error, text: &str) -> String {
+    let line = fault.span().map_or(1, |span| line_of(text.as_bytes(), span.start));
+    format!("line {line}: {}", fault.message().replace('\n', "; "))
 }
 
 /// Whether an option is among the words, `--NAME VALUE` or `--NAME=VALUE`.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use beamwright::mesh::{Surface, unit_in_doubt};
-use beamwright::output::assembly::{Assembly, AssemblyError, assembly};
+use beamwright::output::assembly::{Assembly, AssemblyError, NoSolid, assembly};
 use beamwright::output::cut_list::CutList;
 use beamwright::output::mesh_export::{PartMesh, write_parts};
 use beamwright::output::summary::Summary;
@@ -140,7 +140,7 @@ fn reconstruct(
 /// Why the beams of a mesh are no solids, and what to do where its size tells.
 fn not_built(mesh: &Path, surface: &Surface, fault: &AssemblyError) -> Failure {
     // A part whose beams are too fine is told so.
-    let is_told = matches!(fault, AssemblyError::TooFine { .. });
+    let is_told = matches!(fault, AssemblyError::NoBeam { fault: NoSolid::TooFine { .. }, .. });
     let advice = unit_in_doubt(surface.report.extent).filter(|_| !is_told);
     let advice = advice.map_or_else(String::new, |advice| format!("; {advice}"));
     Failure::input(format!("cannot build {}: {fault}{advice}", mesh.display()))

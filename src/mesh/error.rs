@@ -16,8 +16,10 @@ pub enum MeshError {
 
     /// The surface has openings that are neither small nor flat.
     #[error(
-        "the surface is open: {edges} border edge(s) in {loops} opening(s), the first at {}; \
-         close the holes (MeshLab: Filters > Remeshing > Close Holes) and try again",
+        "the surface is open: {} in {}, the first at {}; close the holes (MeshLab: Filters > Remeshing > \
+         Close Holes) and try again",
+        counted(*edges, "border edge", "border edges"),
+        counted(*loops, "opening", "openings"),
         place(first)
     )]
     Open {
@@ -44,7 +46,11 @@ pub enum MeshError {
     },
 
     /// The surface has one side only.
-    #[error("the surface cannot be oriented: it is one-sided (a Möbius strip) at {}", place(first))]
+    #[error(
+        "the surface has no outside: its two sides run into each other at {}; turn or remove the faces there \
+         (MeshLab: Filters > Normals > Re-Orient all faces coherently) and try again",
+        place(first)
+    )]
     OneSided {
         /// Middle of an edge across which the sides change.
         first: Point3<f64>,
@@ -62,7 +68,9 @@ pub enum MeshError {
     },
 
     /// The surface encloses no volume.
-    #[error("the surface encloses no volume; a solid body is needed")]
+    #[error(
+        "the surface encloses no volume; export the closed surface of a solid body, no sheets without thickness"
+    )]
     NoVolume,
 
     /// Every face is labelled non-design.

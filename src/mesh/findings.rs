@@ -92,7 +92,10 @@ fn label_findings(surface: &Surface) -> Vec<Finding> {
     for (source, marked) in &counts.marked {
         let asked_for = matches!(source, LabelSource::SecondMesh | LabelSource::Box);
         if asked_for && *marked == 0 {
-            findings.push(note(format!("the {} marks no face as non-design", source.describe())));
+            let of = source.describe();
+            findings.push(note(format!(
+                "the {of} marks no face as non-design: does it lie where the part does?"
+            )));
         }
     }
     let labels = &surface.labels;

@@ -19,7 +19,7 @@ pub use beamwright_formats::Place;
 ///
 /// let cg = b"# D:3 NV:2 NE:1\nv 0 0 0\nv 10 0 0\ne 1 3\n";
 /// let error = read_bytes(cg, Format::Cg, Unit::Mm).unwrap_err();
-/// assert_eq!(error.to_string(), "cannot read memory.cg: line 4: no point 3; there are 2");
+/// assert_eq!(error.to_string(), "cannot read memory.cg: line 4: a segment names point 3, but the file has 2 points");
 /// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -67,7 +67,7 @@ pub enum SkeletonFileError {
     },
 
     /// The file is larger than a skeleton can be.
-    #[error("cannot read {}: {size} bytes are more than the limit of {limit}", path.display())]
+    #[error("cannot read {}: {size} bytes are more than the limit of {limit}; is it a skeleton?", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -91,7 +91,7 @@ pub enum SkeletonFileError {
     },
 
     /// A coordinate is NaN, infinite or absurdly large.
-    #[error("cannot read {}: {place}: {number} is not a usable number", path.display())]
+    #[error("cannot read {}: {place}: {number} is no number that can be a place; export the skeleton again", path.display())]
     NotUsable {
         /// The file.
         path: PathBuf,
@@ -102,7 +102,11 @@ pub enum SkeletonFileError {
     },
 
     /// A segment names a point that is not there.
-    #[error("cannot read {}: {place}: no point {index}; there are {count}", path.display())]
+    #[error(
+        "cannot read {}: {place}: a segment names point {index}, but the file has {}",
+        path.display(),
+        counted(*count, "point", "points")
+    )]
     NoSuchPoint {
         /// The file.
         path: PathBuf,

@@ -51,7 +51,10 @@ fn a_catalogue_that_cannot_be_read_is_named_with_the_line() {
     for (bad, fault) in [
         ("own2.csv", "line 4: d must be a number, but is \"x\""),
         ("own3.json", "line 2: malformed JSON: "),
-        ("empty.csv", "the catalogue has no profiles"),
+        (
+            "empty.csv",
+            "it has no profiles: a .csv lists them one a line below its header, a .json in `profiles`",
+        ),
         ("none.csv", "No such file or directory"),
     ] {
         for command in [&["profiles"][..], &["reconstruct", "bar.obj", "-o", "a.step"]] {

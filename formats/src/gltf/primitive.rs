@@ -152,7 +152,9 @@ impl<'a> Emitter<'a> {
                 ReadError::NotFinite {
                     path: self.path.to_owned(),
                     place: Place::Part(format!("{part}.attributes.POSITION")),
-                    number: format!("point {number} ({x}, {y}, {z}), where its node puts it,"),
+                    number: format!(
+                        "point {number} ({x:?}, {y:?}, {z:?}), where its node puts it,"
+                    ),
                 }
             })?;
         }

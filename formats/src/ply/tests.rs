@@ -243,7 +243,7 @@ fn faults_of_binary_data_are_told_with_their_byte() {
     let mut nan = bytes.clone();
     nan[points..points + 4].copy_from_slice(&f32::NAN.to_le_bytes());
     let message_of_nan = message(nan, Format::Ply);
-    let expected = format!("byte {points}: the point (NaN, 0, 0) is not a finite number");
+    let expected = format!("byte {points}: the point (NaN, 0.0, 0.0) is not a finite number");
     assert!(message_of_nan.starts_with(&expected), "{message_of_nan}");
 
     let faces = points + 4 * 17;

@@ -99,7 +99,7 @@ fn read_facets(stream: &mut FacetStream<'_>, builder: &mut Builder<'_>) -> Resul
             builder.point(point.0.map(f64::from)).map_err(|_| ReadError::NotFinite {
                 path: path.to_owned(),
                 place: Place::Byte(byte_of(number)),
-                number: format!("the point ({x}, {y}, {z}) of triangle {}", number + 1),
+                number: format!("the point ({x:?}, {y:?}, {z:?}) of triangle {}", number + 1),
             })?;
         }
         builder.close_face()?;

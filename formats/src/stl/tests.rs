@@ -154,7 +154,7 @@ fn a_point_of_a_binary_file_must_be_finite() {
         bytes[84 + 50 + 16..84 + 50 + 20].copy_from_slice(&number.to_le_bytes());
         let message = message(bytes, Format::Stl);
         let expected =
-            format!("byte 134: the point (0, {number}, 1) of triangle 2 is not a finite");
+            format!("byte 134: the point (0.0, {number}, 1.0) of triangle 2 is not a finite");
         assert!(message.starts_with(&expected), "{message}");
     }
 }

@@ -18,7 +18,7 @@ use crate::output::non_design::{NonDesign, non_design};
 use crate::output::step::{self, Body, Document, Group, Loft, Part, Property, Station, Value};
 use crate::section::matching::MatchErrors;
 use crate::wording::figures;
-pub use error::AssemblyError;
+pub use error::{AssemblyError, NoSolid};
 
 /// Colours given to profiles in turn: distinct for the common kinds of colour blindness
 /// (Okabe and Ito, *Color Universal Design*, 2008), without black.
@@ -83,7 +83,7 @@ pub fn assembly(
     density: f64,
 ) -> Result<Assembly, AssemblyError> {
     let mut profiles: Vec<String> = Vec::new();
-    let mut models: Vec<Result<Model, step::BodyError>> = Vec::new();
+    let mut models: Vec<Result<Model, NoSolid>> = Vec::new();
     let mut parts = Vec::with_capacity(frame.beams.len());
     let mut findings = Vec::new();
     for (i, &Alike { kind, motion, .. }) in joints.alike.iter().enumerate() {
@@ -95,7 +95,8 @@ pub fn assembly(
                 profiles.len() - 1
             });
             let colour = COLOURS[colour % COLOURS.len()];
-            models.push(Model::new(beam, &joints.beams[i], frame, colour, density));
+            let model = Model::new(beam, &joints.beams[i], frame, colour, density);
+            models.push(model.map_err(|fault| NoSolid::of(beam, fault)));
         }
         match &mut models[kind] {
             Ok(model) => {
@@ -108,7 +109,7 @@ pub fn assembly(
     }
     if let (true, Some(Err(fault))) = (parts.is_empty(), models.first()) {
         let (beam, fault) = (shown(0, &frame.beams[0]), fault.clone());
-        return Err(AssemblyError::too_fine(frame).unwrap_or(AssemblyError::NoBeam { beam, fault }));
+        return Err(AssemblyError::NoBeam { beam, fault });
     }
     let parts = parts.into_iter().filter_map(|(kind, name, at)| {
         models[kind].as_ref().ok().map(|model| model.placed(name, at))
@@ -236,7 +237,7 @@ fn simpler_solid(index: usize, frame: &Frame, beam: &Beam, how: &str) -> Finding
 }
 
 /// A beam that is no solid at all is not in the file: a promise that does not hold.
-fn left_out(index: usize, frame: &Frame, beam: &Beam, fault: &step::BodyError) -> Finding {
+fn left_out(index: usize, frame: &Frame, beam: &Beam, fault: &NoSolid) -> Finding {
     let [a, b] = frame.axis(beam);
     let text = format!("{} is no solid and left out of the STEP file: {fault}", shown(index, beam));
     Finding::breach(FindingKind::SimplerSolid, Some(nalgebra::center(&a, &b)), text)

@@ -67,10 +67,10 @@ pub fn non_design(surface: &Surface, density: f64) -> NonDesign {
     let fits = within_budget(&solids);
     for (i, (body, facets)) in bodies.iter().zip(solids).enumerate() {
         let name = format!("N{:03} Non-design", i + 1);
-        match facets.filter(|_| fits[i]) {
-            Some(facets) => found.parts.push(part(name, i, facets, density)),
-            None => {
-                found.findings.push(beside(&name, body));
+        match facets {
+            Some(facets) if fits[i] => found.parts.push(part(name, i, facets, density)),
+            facets => {
+                found.findings.push(beside(&name, body, facets.is_some()));
                 found.meshes.push(mesh(name, body));
             }
         }
@@ -127,12 +127,17 @@ fn mesh(name: String, body: &Closed) -> PartMesh {
     PartMesh { name, colour: COLOUR, points, triangles }
 }
 
-fn beside(name: &str, body: &Closed) -> Finding {
-    let text = format!(
-        "{name} has too many faces for the STEP file ({} triangles, at most {FACE_BUDGET} faces in \
-         all), or does not close up as a solid; it is in a mesh file beside it",
-        body.triangles.len()
-    );
+fn beside(name: &str, body: &Closed, is_solid: bool) -> Finding {
+    let triangles = body.triangles.len();
+    let why = if is_solid || triangles > FACE_BUDGET {
+        format!(
+            "has too many faces for the STEP file ({triangles} triangles, at most {FACE_BUDGET} \
+             faces in all)"
+        )
+    } else {
+        "does not close up as a solid".to_owned()
+    };
+    let text = format!("{name} {why}; it is in a mesh file beside the STEP file");
     Finding::note(FindingKind::NonDesign, body.points.first().copied(), text)
 }
 

@@ -106,7 +106,10 @@ mod tests {
             fault(&format!("{head}A,20,2\nB,20,x\n")),
             "line 4: t must be a number, but is \"x\""
         );
-        assert_eq!(fault(&format!("{head}A,20\n")), "line 3: 2 fields where the header has 3");
+        assert_eq!(
+            fault(&format!("{head}A,20\n")),
+            "line 3: 2 fields where the header has 3; give each column of the header its field"
+        );
         assert_eq!(fault(&format!("{head}A,20,\n")), "line 3: no t, which tube needs");
         assert_eq!(
             fault(&format!("{head}A,20,11\n")),
@@ -114,12 +117,15 @@ mod tests {
         );
         assert_eq!(
             fault(&format!("{head}A,20,2\n\nA,30,2\n")),
-            "line 5: \"A\" was already given at line 3"
+            "line 5: \"A\" was already given at line 3; rename or remove one of them"
         );
         assert!(fault(&format!("{head}A,1e9,2\n")).starts_with("line 3: d is 1000000000 mm"));
         assert!(fault("name,shape,d\nA,ball,3\n").starts_with("line 2: unknown shape \"ball\""));
         assert_eq!(fault("name,d\nA,3\n"), "line 2: no shape, which every profile needs");
-        assert_eq!(fault(""), "the catalogue has no profiles");
+        assert_eq!(
+            fault(""),
+            "it has no profiles: a .csv lists them one a line below its header, a .json in `profiles`"
+        );
     }
 
     #[test]

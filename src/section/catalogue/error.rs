@@ -26,7 +26,7 @@ pub enum CatalogueError {
     },
 
     /// The file is larger than any catalogue.
-    #[error("it has {bytes} bytes; a catalogue has at most 16 MiB")]
+    #[error("it has {bytes} bytes; a catalogue has at most 16 MiB: is it one?")]
     TooLarge {
         /// Its size.
         bytes: u64,
@@ -58,7 +58,9 @@ pub enum CatalogueError {
     },
 
     /// There are no profiles in the file.
-    #[error("the catalogue has no profiles")]
+    #[error(
+        "it has no profiles: a .csv lists them one a line below its header, a .json in `profiles`"
+    )]
     Empty,
 
     /// A family that was asked for is not there.
@@ -94,7 +96,9 @@ impl fmt::Display for Place {
 #[non_exhaustive]
 pub enum RowFault {
     /// The row has more or fewer fields than the header.
-    #[error("{found} fields where the header has {expected}")]
+    #[error(
+        "{found} fields where the header has {expected}; give each column of the header its field"
+    )]
     Fields {
         /// Fields of the row.
         found: u64,
@@ -165,7 +169,7 @@ pub enum RowFault {
     },
 
     /// A name stands twice in the file.
-    #[error("{name:?} was already given at {first}")]
+    #[error("{name:?} was already given at {first}; rename or remove one of them")]
     Twice {
         /// The name.
         name: String,

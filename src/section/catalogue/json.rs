@@ -81,7 +81,10 @@ mod tests {
         assert!(fault("{\n \"profiles\": [,]").starts_with("line 2: malformed JSON"));
         let unknown = r#"{"shape": "round", "profiles": [{"name": "A", "d": 3}, {"name": "B"}]}"#;
         assert_eq!(fault(unknown), "profile 2: no d, which round needs");
-        assert_eq!(fault("[]"), "the catalogue has no profiles");
+        assert_eq!(
+            fault("[]"),
+            "it has no profiles: a .csv lists them one a line below its header, a .json in `profiles`"
+        );
         let nested = r#"{"profiles": [{"name": "A", "d": [3]}]}"#;
         assert_eq!(fault(nested), "profile 1: d must be a number, but is \"[3]\"");
     }
