@@ -76,9 +76,11 @@ impl<'a> Making<'a> {
         let is_swallowed = is_swallowed(section, radius);
         let near_junction = piece.ends.iter().any(|&n| {
             let node = &self.nodes[n];
-            let thickest = if is_swallowed { self.thickest_at(n) } else { 0.0 };
-            node.kind == NodeKind::Junction
-                && (node.position - section.centroid).norm() < JUNCTION_REACH * radius.max(thickest)
+            let reach = || {
+                let thickest = if is_swallowed { self.thickest_at(n) } else { 0.0 };
+                JUNCTION_REACH * radius.max(thickest)
+            };
+            node.kind == NodeKind::Junction && (node.position - section.centroid).norm() < reach()
         });
         if near_junction { station.weight } else { 1.0 }
     }

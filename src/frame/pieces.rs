@@ -39,6 +39,8 @@ const FARTHEST_SLIDE: f64 = 0.35;
 pub(super) struct Making<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) sections: &'a [Option<Section>],
+    /// Mean radius of each branch, mm.
+    radii: Rc<[f64]>,
     /// How deep each section is.
     pub(super) depths: Rc<[Option<Depths>]>,
     pub(super) nodes: Vec<Node>,
@@ -61,6 +63,7 @@ impl<'a> Making<'a> {
         let mut making = Self {
             skeleton,
             sections,
+            radii: skeleton.branches.iter().map(|b| mean_radius(skeleton, b)).collect(),
             depths: sections.iter().map(|s| s.as_ref().map(Section::depths)).collect(),
             nodes: vec![],
             anchors: vec![],
@@ -71,7 +74,7 @@ impl<'a> Making<'a> {
         let mut of_point = vec![None; skeleton.points.len()];
         for (b, branch) in skeleton.branches.iter().enumerate() {
             let chain = skeleton.polyline(branch);
-            let radius = mean_radius(skeleton, branch);
+            let radius = making.radii[b];
             let kept = breaks(&chain, params.max_deviation * radius, SHORTEST_PIECE * radius);
             for w in kept.windows(2) {
                 let ends = [w[0], w[1]].map(|i| {
@@ -138,7 +141,7 @@ impl<'a> Making<'a> {
 
     /// Mean radius of the branch of a piece, mm.
     pub(super) fn branch_radius(&self, piece: &Piece) -> f64 {
-        mean_radius(self.skeleton, &self.skeleton.branches[piece.branch])
+        self.radii[piece.branch]
     }
 
     /// Moves all nodes so that the pieces run through the centroids of their sections.
