@@ -24,6 +24,7 @@ use super::error::{MeshError, SCALE};
 use super::fans::{drop_unused_points, split_shared_vertices};
 use super::fill::close_openings;
 use super::half_edge::HalfEdgeMesh;
+use super::id::FaceId;
 use super::indexed::{IndexedMesh, weld};
 use super::interface_section::{InterfaceSection, interface_sections};
 use super::label::{LabelCounts, LabelParams, extent, non_design_faces};
@@ -51,6 +52,8 @@ pub struct Surface {
     pub listed: Vec<u32>,
     /// What was found and mended.
     pub report: MeshReport,
+    /// Area of each face, mm².
+    areas: Vec<f64>,
     design: DesignPart,
 }
 
@@ -62,13 +65,18 @@ struct DesignPart {
 }
 
 impl DesignPart {
-    fn new(mesh: &HalfEdgeMesh, labels: &Labels, interfaces: &[InterfaceSection]) -> Self {
+    fn new(
+        mesh: &HalfEdgeMesh,
+        areas: &[f64],
+        labels: &Labels,
+        interfaces: &[InterfaceSection],
+    ) -> Self {
         let origin = mesh.positions().first().copied().unwrap_or_else(Point3::origin);
         let (mut volume, mut area) = (0.0, 0.0);
         for f in mesh.faces().filter(|f| labels.is_design(*f)) {
             let [a, b, c] = mesh.corners(f).map(|p| p - origin);
             volume += a.dot(&b.cross(&c)) / 6.0;
-            area += mesh.face_area(f);
+            area += areas[f.index()];
         }
         // The cap of a section looks out of the design part, against the section's normal.
         let caps: f64 =
@@ -86,6 +94,11 @@ impl Surface {
     /// Area of the design faces, mm².
     pub fn design_area(&self) -> f64 {
         self.design.area
+    }
+
+    /// Area of a face, mm².
+    pub fn face_area(&self, face: FaceId) -> f64 {
+        self.areas[face.index()]
     }
 
     /// Mean strut radius 2 V / A of the design part, mm.
@@ -324,10 +337,11 @@ fn finish(
     report.vertices = mesh.positions().len();
     report.genus = genus(&mesh, report.bodies);
     report.volume = mesh.volume();
-    report.area = mesh.faces().map(|f| mesh.face_area(f)).sum();
+    let areas: Vec<f64> = mesh.faces().map(|f| mesh.face_area(f)).collect();
+    report.area = areas.iter().sum();
     report.extent = extent(mesh.positions());
-    let design = DesignPart::new(&mesh, &labels, &interfaces);
-    Surface { mesh, labels, interfaces, tree, listed, report, design }
+    let design = DesignPart::new(&mesh, &areas, &labels, &interfaces);
+    Surface { mesh, labels, interfaces, tree, listed, report, areas, design }
 }
 
 /// Tunnels of a closed surface: χ = V − E + F = 2 (bodies − genus).

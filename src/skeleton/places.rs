@@ -12,6 +12,13 @@ pub(crate) struct Place {
     pub(crate) point: Point3<f64>,
 }
 
+impl Place {
+    /// The middle of a part of a triangle.
+    fn within(face: FaceId, [a, b, c]: &[Point3<f64>; 3]) -> Self {
+        Self { face, point: Point3::from((a.coords + b.coords + c.coords) / 3.0) }
+    }
+}
+
 /// Most places of one mesh. Parts of a thousand struts have some ten thousand; a single corner far
 /// out in space would ask for more than there is memory.
 const MOST_PLACES: f64 = 65_536.0;
@@ -30,24 +37,31 @@ pub(crate) fn places(
     // Parts of the triangle that are still to be looked at.
     let mut left: Vec<[Point3<f64>; 3]> = Vec::new();
     let mut due = 0.5;
+    let mut is_due = |area: f64| {
+        due += area / area_each;
+        let is_due = due >= 1.0;
+        due -= f64::from(u8::from(is_due));
+        is_due
+    };
+    let is_large = |area: f64| area > area_each && area.is_finite();
     let is_design = |f: &FaceId| surface.labels.is_design(*f);
     for face in surface.mesh.faces().filter(is_design).filter(|f| is_wanted(*f)) {
-        let mut part = Some(surface.mesh.corners(face));
-        while let Some([a, b, c]) = part {
+        let area = surface.face_area(face);
+        if !is_large(area) {
+            if is_due(area) {
+                places.push(Place::within(face, &surface.mesh.corners(face)));
+            }
+            continue;
+        }
+        left.push(surface.mesh.corners(face));
+        while let Some([a, b, c]) = left.pop() {
             let area = 0.5 * (b - a).cross(&(c - a)).norm();
-            if area > area_each && area.is_finite() {
+            if is_large(area) {
                 let [first, second] = halves([a, b, c]);
-                part = Some(first);
-                left.push(second);
-                continue;
+                left.extend([second, first]);
+            } else if is_due(area) {
+                places.push(Place::within(face, &[a, b, c]));
             }
-            due += area / area_each;
-            if due >= 1.0 {
-                due -= 1.0;
-                let sum = a.coords + b.coords + c.coords;
-                places.push(Place { face, point: Point3::from(sum / 3.0) });
-            }
-            part = left.pop();
         }
     }
     places
