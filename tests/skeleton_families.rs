@@ -43,6 +43,9 @@ fn parts() -> Vec<(&'static str, TestMesh, [usize; 2])> {
         ("cube of struts without labels", frame::cube().mesh(1.0), [1, 5]),
         ("fork of 20°", frame::fork(20.0).mesh(1.0), [1, 0]),
         ("close pair of junctions", frame::close_pair().mesh(1.0), [1, 0]),
+        ("three struts to one side", frame::spike().mesh(0.9), [1, 0]),
+        ("struts that turn back", frame::turned_back().mesh(0.9), [1, 0]),
+        ("pinhole between two struts", frame::fork(20.0).drilled([59.0, 0.0], 0.7, 0.7), [1, 1]),
     ]
 }
 
@@ -125,6 +128,35 @@ fn the_global_march_sees_a_leg_that_leaves_across_its_way() {
     let surface = frame::tee().mesh(1.0).surface();
     let skeleton = march(&surface, &params, &mut ()).expect("a skeleton").skeleton;
     assert_eq!((skeleton.branches.len(), skeleton.count(PointKind::Junction)), (3, 1));
+}
+
+/// Distances of the nodes of a frame that are no pads from the nearest junction or knee of a skeleton.
+fn misses(truth: &TrueFrame, marched: &Marched) -> Vec<f64> {
+    let free = (0..truth.nodes.len()).filter(|n| !truth.pads.contains(n));
+    let nearest = |n: usize| {
+        let node = nalgebra::Point3::from(truth.nodes[n]);
+        let distances = marched.skeleton.points.iter().map(|p| (p.position - node).norm());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    free.map(nearest).collect()
+}
+
+#[test]
+fn struts_that_leave_to_one_side_meet_at_the_tip_of_their_lump() {
+    let truth = frame::spike();
+    let marched = marched(&truth.mesh(0.9)).expect("a skeleton");
+    let off = misses(&truth, &marched);
+    assert!(off.iter().all(|&d| d < 0.3), "{off:?}");
+}
+
+/// The joint at the end of the second strut lies behind the interface section of the first.
+#[test]
+fn a_joint_behind_a_section_far_along_its_branch_does_not_go_into_it() {
+    let truth = frame::turned_back();
+    let marched = marched(&truth.mesh(0.9)).expect("a skeleton");
+    assert_eq!(marched.skeleton.branches.len(), 3);
+    let off = misses(&truth, &marched);
+    assert!(off.iter().all(|&d| d < 0.3), "{off:?}");
 }
 
 /// Legs that part at a small angle run in one section for many radii behind their joint.

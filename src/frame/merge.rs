@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Point3;
+
+use super::narrow_loop::is_narrow_loop;
 use super::pieces::{Making, Piece, SHORTEST_PIECE};
 use crate::finding::{Finding, FindingKind};
 
@@ -74,12 +77,10 @@ impl Making<'_> {
 
     /// Leaves out pieces that end where they begin: loops too narrow to be broken into beams.
     pub(super) fn drop_closed_pieces(&mut self, findings: &mut Vec<Finding>) {
+        let narrow = self.skeleton.branches.iter().filter(|b| is_narrow_loop(self.skeleton, b));
+        findings.extend(narrow.map(|b| no_beam(self.skeleton.position(b.points[0]))));
         for piece in self.pieces.extract_if(.., |p| p.ends[0] == p.ends[1]) {
-            findings.push(Finding::note(
-                FindingKind::NodesMerged,
-                Some(self.nodes[piece.ends[0]].position),
-                "a loop at a node, narrower than a section radius, is no beam; it was left out",
-            ));
+            findings.push(no_beam(self.nodes[piece.ends[0]].position));
         }
         self.drop_unused_nodes();
     }
@@ -117,4 +118,12 @@ impl Making<'_> {
             .filter(|(node, _)| *node != usize::MAX)
             .collect();
     }
+}
+
+fn no_beam(place: Point3<f64>) -> Finding {
+    Finding::note(
+        FindingKind::NodesMerged,
+        Some(place),
+        "a loop at a node, narrower than a section radius, is no beam; it was left out",
+    )
 }

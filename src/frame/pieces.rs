@@ -6,6 +6,7 @@ use std::rc::Rc;
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::depth::Depths;
+use super::narrow_loop::is_narrow_loop;
 use super::params::FrameParams;
 use super::section_at::Section;
 use super::solve::{Anchor, FAINT, Pull, Tie, solve_nodes};
@@ -73,6 +74,9 @@ impl<'a> Making<'a> {
         };
         let mut of_point = vec![None; skeleton.points.len()];
         for (b, branch) in skeleton.branches.iter().enumerate() {
+            if is_narrow_loop(skeleton, branch) {
+                continue;
+            }
             let chain = skeleton.polyline(branch);
             let radius = making.radii[b];
             let kept = breaks(&chain, params.max_deviation * radius, SHORTEST_PIECE * radius);

@@ -18,13 +18,22 @@ pub struct TrueFrame {
 impl TrueFrame {
     /// Its mesh on a grid of `step`, with faces on the pads labelled.
     pub fn mesh(&self, step: f64) -> TestMesh {
+        self.mesh_of(step, |p| self.distance(p))
+    }
+
+    /// The same with a hole along z drilled through it.
+    pub fn drilled(&self, [x, y]: [f64; 2], radius: f64, step: f64) -> TestMesh {
+        self.mesh_of(step, |p| self.distance(p).max(radius - (p[0] - x).hypot(p[1] - y)))
+    }
+
+    fn mesh_of(&self, step: f64, distance: impl Fn([f64; 3]) -> f64) -> TestMesh {
         let thickest = self.struts.iter().flat_map(|s| s.1).fold(0.0, f64::max);
         let margin = self.pad.max(1.2 * thickest) + 2.0 * step;
         let low = [0, 1, 2].map(|k| self.bound(k, f64::min) - margin);
         let high = [0, 1, 2].map(|k| self.bound(k, f64::max) + margin);
         // A grid that no pad face lies on.
         let low = low.map(|x| x - 0.37 * step);
-        surface_of(|p| self.distance(p), low, high, step)
+        surface_of(distance, low, high, step)
             .labelled(|middle| self.pad_distance(middle) < 0.35 * step)
     }
 
@@ -141,6 +150,42 @@ pub fn cube() -> TrueFrame {
         .map(|(a, b)| ([a, b], equal(3.5)))
         .collect();
     TrueFrame { nodes, struts, pads: Vec::new(), pad: 0.0 }
+}
+
+/// A node that three struts leave to one side, 34° from each other: they fill one lump before they part.
+pub fn spike() -> TrueFrame {
+    let far = |k: f64| {
+        let (sin, cos) = (k * std::f64::consts::TAU / 3.0).sin_cos();
+        [60.0, 21.0 * cos, 21.0 * sin]
+    };
+    TrueFrame {
+        nodes: vec![[0.0, 0.0, 0.0], far(0.0), far(1.0), far(2.0)],
+        struts: (1..4).map(|n| ([0, n], equal(3.0))).collect(),
+        pads: vec![1, 2, 3],
+        pad: 5.0,
+    }
+}
+
+/// Two struts that meet at 44°, and two more from the end of one: the joint there lies behind the
+/// interface section of the other.
+pub fn turned_back() -> TrueFrame {
+    TrueFrame {
+        nodes: vec![
+            [0.0, 0.0, 0.0],
+            [52.0, 21.0, 0.0],
+            [43.0, -17.0, 0.0],
+            [85.0, -35.0, 0.0],
+            [55.0, -57.0, 0.0],
+        ],
+        struts: vec![
+            ([0, 1], equal(2.7)),
+            ([0, 2], equal(2.5)),
+            ([2, 3], equal(3.2)),
+            ([2, 4], equal(3.0)),
+        ],
+        pads: vec![1, 3, 4],
+        pad: 5.5,
+    }
 }
 
 /// Two junctions one and a half diameters apart.

@@ -6,7 +6,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::axis::{Axis, all_pass};
+use super::axis::all_pass;
 use super::draft::{Draft, HubKind, Run};
 use super::junction::{axes_at, nearest_inside};
 use super::sample::{Known, moved};
@@ -112,7 +112,7 @@ fn free_joints(draft: &Draft, at: &[Vec<(usize, usize)>]) -> Vec<usize> {
 
 /// Whether the axes of a joint's runs pass each other.
 fn is_apart(draft: &Draft, runs: &[(usize, usize)], hub: usize) -> bool {
-    let axes: Vec<Axis> = axes_at(draft, runs).into_iter().flatten().collect();
+    let axes = axes_at(draft, runs);
     !all_pass(&axes, &draft.hubs[hub].position, APART)
 }
 

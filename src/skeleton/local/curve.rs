@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::draft::{Hub, HubKind, Run};
+use super::draft::{Hub, HubKind, Run, Station};
 use super::trend::Trend;
 use crate::mesh::Surface;
 use crate::observer::Observer;
@@ -42,11 +42,19 @@ pub(crate) fn base_curve(
     while last > first && ((is_joint[1] && swollen(last - 1)) || passed(last - 1, &end, -1.0)) {
         last -= 1;
     }
+    let mut curve = vec![start];
+    if first == last && run.is_loop() {
+        // Over both sides of the section in the middle: a way to and fro is no loop.
+        if let Some(Station { centroid, direction, radius, .. }) = run.stations.get(n / 2) {
+            curve.extend([-0.5, 0.5].map(|side| centroid + **direction * (side * radius)));
+        }
+        curve.push(end);
+        return Ok(curve);
+    }
     if first == last {
         // Nothing is clean: the section in the middle still says where the run passes.
         (first, last) = (n / 2, n / 2 + usize::from(n > 2));
     }
-    let mut curve = vec![start];
     let stride = (last - first).div_ceil(MOST_ON_CURVE).max(1);
     straight.resize(n, false);
     for i in (first..last).step_by(stride) {

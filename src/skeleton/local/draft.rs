@@ -76,6 +76,11 @@ impl Run {
         *radii.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 
+    /// Whether it begins and ends in one hub.
+    pub(crate) fn is_loop(&self) -> bool {
+        self.hubs[0] == self.hubs[1]
+    }
+
     /// Way along the centroids of the sections, mm.
     pub(crate) fn length(&self) -> f64 {
         self.stations.windows(2).map(|w| (w[1].centroid - w[0].centroid).norm()).sum()
@@ -229,8 +234,8 @@ const STRAIGHT_ON: f64 = 0.94;
 /// Axes of a knee pass each other by no more than this part of their radius.
 const KNEE_MISSES: f64 = 0.5;
 
-/// A knee lies no farther than this many radii beyond the last sections of its legs.
-const KNEE_REACH: f64 = 4.0;
+/// A knee lies no farther than this many radii beyond where its legs part, r / tan(θ/2) from it.
+const KNEE_REACH: f64 = 3.0;
 
 /// Where the straight axes of two legs, each seen from their common end, meet at an angle.
 fn knee(legs: &[Vec<Station>; 2]) -> Option<Point3<f64>> {
@@ -241,10 +246,12 @@ fn knee(legs: &[Vec<Station>; 2]) -> Option<Point3<f64>> {
     }
     let meeting =
         meeting_point(&[a, b], &nalgebra::center(&legs[0][0].centroid, &legs[1][0].centroid));
+    // 1 / tan(θ/2), in radii.
+    let parting = ((1.0 + cosine) / (1.0 - cosine)).sqrt();
     let fits = |axis: &Axis, leg: &[Station]| {
         let ahead = (leg[0].centroid - meeting).dot(&axis.direction);
         axis.distance(&meeting) <= 0.5 * KNEE_MISSES * axis.radius
-            && ahead <= KNEE_REACH * axis.radius
+            && ahead <= (KNEE_REACH + parting) * axis.radius
             && ahead >= -axis.radius
     };
     (fits(&a, &legs[0]) && fits(&b, &legs[1])).then_some(meeting)

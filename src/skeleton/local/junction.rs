@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::axis::{Axis, all_pass, axis_at_start};
 use super::draft::{Draft, HubKind, Run, Station};
 use crate::mesh::Surface;
-use crate::skeleton::inside::middle_of_wall;
+use crate::skeleton::inside::{is_inside, middle_of_wall};
 
 /// Pull towards the rough place, against a pull of one by each axis. It decides only along a
 /// direction in which the axes say nothing (all nearly parallel).
@@ -30,9 +30,13 @@ fn weight(axis: &Axis) -> f64 {
     (axis.length / (6.0 * axis.radius)).clamp(0.05, 1.0)
 }
 
-/// Axes of all runs at each hub, in the order of the incidences.
-pub(crate) fn axes_at(draft: &Draft, runs: &[(usize, usize)]) -> Vec<Option<Axis>> {
-    runs.iter().map(|&(r, end)| axis_at_start(&draft.runs[r].seen_from(end))).collect()
+/// Axes of the runs at a hub; those of runs that begin and end there only where it has no two others:
+/// the loop round a pinhole in a fillet says nothing of the joint.
+pub(crate) fn axes_at(draft: &Draft, runs: &[(usize, usize)]) -> Vec<Axis> {
+    let is_leg = |r: usize| !draft.runs[r].is_loop();
+    let has_legs = runs.iter().filter(|&&(r, _)| is_leg(r)).count() > 1;
+    let wanted = runs.iter().filter(|&&(r, _)| is_leg(r) || !has_legs);
+    wanted.filter_map(|&(r, end)| axis_at_start(&draft.runs[r].seen_from(end))).collect()
 }
 
 /// Places every joint where the axes of its runs meet, inside the object.
@@ -47,21 +51,25 @@ pub(crate) fn place_joints(draft: &mut Draft, surface: &Surface) {
             draft.hubs[hub].position = place;
             continue;
         }
-        let axes: Vec<Axis> = axes_at(draft, runs).into_iter().flatten().collect();
+        let axes = axes_at(draft, runs);
         let rough = draft.hubs[hub].position;
-        let meeting = within_reach(draft, runs, &axes, rough);
+        let is_seen = |place: &Point3<f64>| sees_all(draft, surface, runs, place);
+        let meeting = within_reach(draft, runs, &axes, rough, is_seen);
         draft.hubs[hub].position = nearest_inside(surface, meeting, rough);
     }
 }
 
 /// The meeting point, drawn back to the ball round the joint in which its branches end: axes that
 /// run side by side meet far away. Legs that part at a few degrees fill one thick branch before
-/// they do; the march took that for the stem, in whose way their axes meet.
+/// they do; the march took that for the stem, in whose way their axes meet. Legs that all leave to one
+/// side fill one lump; in that their axes meet, seen from the
+/// nearest sections of all.
 fn within_reach(
     draft: &Draft,
     runs: &[(usize, usize)],
     axes: &[Axis],
     rough: Point3<f64>,
+    is_seen: impl Fn(&Point3<f64>) -> bool,
 ) -> Point3<f64> {
     let meeting = meeting_point(axes, &rough);
     let reach = runs
@@ -73,7 +81,15 @@ fn within_reach(
         })
         .fold(0.0f64, f64::max);
     let away = meeting - rough;
-    if away.norm() <= reach || is_in_a_stem(draft, runs, axes, &meeting) {
+    let is_on_a_way = || runs.iter().any(|&(r, end)| is_on_the_way(&draft.runs[r], end, &meeting));
+    let is_in_a_stem = || all_pass(axes, &meeting, MEETS) && is_on_a_way();
+    let is_in_a_tip = || {
+        axes.len() > 2
+            && all_pass(axes, &meeting, MEETS_IN_TIP)
+            && !is_on_a_way()
+            && is_seen(&meeting)
+    };
+    if away.norm() <= reach || is_in_a_stem() || is_in_a_tip() {
         return meeting;
     }
     rough + away * (reach / away.norm())
@@ -84,21 +100,28 @@ fn within_reach(
 /// their way is as good.
 const MEETS: f64 = 0.1;
 
-/// Whether all axes meet in a place within one of the branches.
-fn is_in_a_stem(
-    draft: &Draft,
-    runs: &[(usize, usize)],
-    axes: &[Axis],
-    meeting: &Point3<f64>,
-) -> bool {
-    all_pass(axes, meeting, MEETS)
-        && runs.iter().any(|&(r, end)| is_on_the_way(&draft.runs[r], end, meeting))
-}
+/// The same where the meeting lies beyond the sections of all branches: those of lumpy struts miss each
+/// other by up to 0.27.
+const MEETS_IN_TIP: f64 = 0.3;
 
 /// Whether a place lies in one of the sections of a run's nearer half.
 fn is_on_the_way(run: &Run, end: usize, place: &Point3<f64>) -> bool {
     let holds = |s: &Station| (s.centroid - place).norm() <= s.radius;
     run.seen_from(end).iter().take(run.stations.len() / 2).any(holds)
+}
+
+/// Whether the nearest sections of all runs at a joint are seen from a place inside the object.
+pub(crate) fn sees_all(
+    draft: &Draft,
+    surface: &Surface,
+    runs: &[(usize, usize)],
+    place: &Point3<f64>,
+) -> bool {
+    runs.iter().all(|&(r, end)| {
+        let stations = &draft.runs[r].stations;
+        let nearest = if end == 0 { stations.first() } else { stations.last() };
+        nearest.is_none_or(|s| is_inside(&surface.tree, place, &s.centroid))
+    })
 }
 
 /// `wanted`, or the point nearest to it on the way to `fallback` that lies inside, or the middle of
@@ -158,14 +181,14 @@ mod tests {
         draft.add_hub(HubKind::Joint);
         draft.runs = vec![run(stem), leg(1.0), leg(-1.0)];
         let runs = vec![(0, 0), (1, 0), (2, 0)];
-        let axes = axes_at(&draft, &runs).into_iter().flatten().collect();
+        let axes = axes_at(&draft, &runs);
         (draft, runs, axes)
     }
 
     #[test]
     fn legs_meet_in_the_way_of_their_stem() {
         let (draft, runs, axes) = fork(25.0);
-        let place = within_reach(&draft, &runs, &axes, Point3::new(40.0, 0.0, 0.0));
+        let place = within_reach(&draft, &runs, &axes, Point3::new(40.0, 0.0, 0.0), |_| false);
         // The faint pull to the rough place is felt at so small an angle.
         assert!((place - Point3::new(25.0, 0.0, 0.0)).norm() < 1.0, "{place}");
     }
@@ -173,7 +196,28 @@ mod tests {
     #[test]
     fn axes_that_meet_far_from_every_branch_are_drawn_back() {
         let (draft, runs, axes) = fork(-300.0);
-        let place = within_reach(&draft, &runs, &axes, Point3::new(40.0, 0.0, 0.0));
+        let place = within_reach(&draft, &runs, &axes, Point3::new(40.0, 0.0, 0.0), |_| false);
         assert!((place.x - 40.0).abs() < 40.0, "{place}");
+    }
+
+    #[test]
+    fn legs_that_leave_to_one_side_meet_in_their_lump_if_it_is_seen() {
+        // Three legs from the origin at 20° about x, apart from eight radii on.
+        let leg = |k: usize| {
+            let (sin, cos) = (k as f64 * std::f64::consts::TAU / 3.0).sin_cos();
+            let along = |i: usize| (8.0 + i as f64, 0.36 * (8.0 + i as f64));
+            let at = |i: usize| station([along(i).0, along(i).1 * sin, along(i).1 * cos], 1.0);
+            Run { hubs: [0, k + 1], stations: (0..20).map(at).collect() }
+        };
+        let mut draft = Draft::default();
+        (0..4).for_each(|_| _ = draft.add_hub(HubKind::Joint));
+        draft.runs = (0..3).map(leg).collect();
+        let runs = [(0, 0), (1, 0), (2, 0)];
+        let axes = axes_at(&draft, &runs);
+        let place = |is_seen: bool| {
+            within_reach(&draft, &runs, &axes, Point3::new(8.0, 0.0, 0.0), |_| is_seen)
+        };
+        assert!(place(true).coords.norm() < 0.1, "{}", place(true));
+        assert!(place(false).x > 1.0, "{}", place(false));
     }
 }

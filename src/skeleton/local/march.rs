@@ -161,7 +161,20 @@ impl<'a> March<'a> {
         let mut fronts: Vec<Front> =
             behind.fronts.iter().skip(1).rev().filter_map(|f| self.reversed(f)).collect();
         fronts.extend(ahead.fronts);
+        if let [only] = &fronts[..] {
+            self.claim_round(only);
+        }
         Ok(Some(Tube { fronts }))
+    }
+
+    /// Claims the triangles a front crosses, so that no other contour crosses it.
+    pub(super) fn claim_round(&mut self, front: &Front) {
+        let Plane { point, normal } = front.plane;
+        let faces = front.contour.half_edges.iter().map(|h| h.face());
+        let corners = faces.clone().flat_map(|f| self.surface.mesh.corners(f));
+        let farthest = corners.map(|p| front.plane.height(&p).abs()).fold(0.0, f64::max);
+        let at = |side: f64| Plane::new(point + *normal * (2.0 * side * farthest), normal);
+        self.claims.add(at(-1.0), at(1.0), faces);
     }
 
     /// The same front, looked at from the other side.

@@ -27,6 +27,7 @@ mod claim;
 mod curve;
 mod cutting;
 mod draft;
+mod handles;
 mod junction;
 mod march;
 pub(super) mod patch;

@@ -56,6 +56,11 @@ enum Of {
 }
 
 impl Patches {
+    /// Handles of all pieces.
+    pub(crate) fn genus(&self) -> usize {
+        self.all.iter().map(|piece| piece.genus).sum()
+    }
+
     /// The piece a triangle belongs to; `None` for cut and non-design triangles.
     pub(crate) fn of_face(&self, face: FaceId) -> Option<usize> {
         match self.of_face[face.index()] {

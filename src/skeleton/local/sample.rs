@@ -112,8 +112,7 @@ pub(crate) fn moved(
     watch: &mut Watch<'_, impl Observer>,
 ) -> Result<Moved, SkeletonError> {
     let curve = base_curve(surface, run, trend, hubs, straight, watch)?;
-    let least = if run.hubs[0] == run.hubs[1] { 3 } else { 2 };
-    let mut points = spaced(&curve, step, least);
+    let mut points = spaced(&curve, step, least_between(run) + 1);
     let last = points.len() - 1;
     if cuts.len() != points.len() {
         cuts.clear();
@@ -202,7 +201,7 @@ pub(crate) fn samples(
         let position = kept_inside(surface, points[i], || curve.point(i, last));
         Sample { position, radius: radii[i] }
     };
-    Ok(placed(&shares).map(at).collect())
+    Ok(placed(&shares, least_between(run)).map(at).collect())
 }
 
 /// Within so many radii of a joint a point is placed only next to another one. Legs that part at a
@@ -239,13 +238,20 @@ fn strays(shares: &[f64], end: usize, beside: impl Fn(usize) -> bool) -> Vec<usi
     (1..=stray.unwrap_or(0)).map(from_end).collect()
 }
 
-/// The points whose section is the branch's own; at least one, so that two branches between the
-/// same joints stay apart.
-fn placed(shares: &[f64]) -> impl Iterator<Item = usize> {
+/// Points a run has between its hubs at least: one, so that two branches between the same joints stay
+/// apart, or two, so that a branch that ends where it begins is a loop.
+fn least_between(run: &Run) -> usize {
+    1 + usize::from(run.is_loop())
+}
+
+/// The points whose section is the branch's own, and the `least` nearest to that.
+fn placed(shares: &[f64], least: usize) -> impl Iterator<Item = usize> {
     let last = shares.len() - 1;
-    let best = (1..last).max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
-    let own: Vec<bool> = shares.iter().map(|s| *s >= OWN).collect();
-    (1..last).filter(move |&i| own[i] || Some(i) == best)
+    let mut best: Vec<usize> = (1..last).collect();
+    best.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
+    let mut is_placed: Vec<bool> = shares.iter().map(|s| *s >= OWN).collect();
+    best.iter().take(least).for_each(|&i| is_placed[i] = true);
+    (1..last).filter(move |&i| is_placed[i])
 }
 
 impl Growth {

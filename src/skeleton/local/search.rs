@@ -6,6 +6,7 @@ use nalgebra::Point3;
 use super::axis::{Axis, all_pass, axis_at_start};
 use super::band::Front;
 use super::draft::{Station, reversed, stations_of};
+use super::handles::open_handles;
 use super::junction::meeting_point;
 use super::march::March;
 use super::patch::{CutSide, Patch, Patches, patches};
@@ -112,11 +113,11 @@ pub(crate) fn find_tubes(
     }
     keep_on(observer)?;
     let patches = cut.unwrap_or_else(|| cut_open(surface, &tubes));
-    Ok(Found { tubes, patches })
+    open_handles(march, Found { tubes, patches }, mean_radius, observer)
 }
 
 /// Cuts the surface along the middle contour of every tube.
-fn cut_open(surface: &Surface, tubes: &[Tube]) -> Patches {
+pub(super) fn cut_open(surface: &Surface, tubes: &[Tube]) -> Patches {
     let cuts: Vec<&Contour> = tubes.iter().map(|t| &t.middle().contour).collect();
     patches(&surface.mesh, |f| surface.labels.is_design(f), &cuts, &surface.interfaces)
 }

@@ -3,13 +3,12 @@
 
 use nalgebra::Point3;
 
-use super::axis::{Axis, all_pass, axis_at_start};
-use super::draft::{Draft, HubKind};
-use super::junction::{meeting_point, nearest_inside, place_joints};
+use super::axis::{Axis, all_pass};
+use super::draft::{Draft, HubKind, Station};
+use super::junction::{axes_at, meeting_point, nearest_inside, place_joints, sees_all};
 use crate::mesh::Surface;
 use crate::observer::Observer;
 use crate::skeleton::error::{SkeletonError, keep_on};
-use crate::skeleton::inside::is_inside;
 
 /// Joints nearer to each other than this many radii of their branches are one: the axes of a plain
 /// joint miss each other by tenths, two joints a radius apart cannot be built.
@@ -18,6 +17,9 @@ const SAME_JOINT: f64 = 1.0;
 /// A joint at most this many radii in front of an interface section lies in it: the struts share
 /// the section.
 const AT_INTERFACE: f64 = 1.0;
+
+/// Struts overlap in a place that is no farther from each axis than this many of its radii.
+const OVERLAP: f64 = 1.0;
 
 /// A free end must stand out by this many of its radii over the joint it leaves; rounded corners
 /// stand out by less than one.
@@ -82,12 +84,9 @@ fn merge_joints(draft: &mut Draft) -> bool {
     });
     for (r, run) in candidates {
         let [a, b] = run.hubs;
-        let others: Vec<Axis> = [a, b]
-            .iter()
-            .flat_map(|&h| &at[h])
-            .filter(|&&(s, _)| s != r)
-            .filter_map(|&(s, end)| axis_at_start(&draft.runs[s].seen_from(end)))
-            .collect();
+        let legs: Vec<(usize, usize)> =
+            [a, b].iter().flat_map(|&h| &at[h]).copied().filter(|&(s, _)| s != r).collect();
+        let others = axes_at(draft, &legs);
         if others.is_empty() {
             continue;
         }
@@ -134,11 +133,9 @@ fn merge_into_interfaces(draft: &mut Draft, surface: &Surface) -> bool {
             (HubKind::Interface(i), HubKind::Joint) => (b, a, i),
             _ => continue,
         };
-        let others: Vec<Axis> = at[joint]
-            .iter()
-            .filter(|&&(s, _)| s != r)
-            .filter_map(|&(s, end)| axis_at_start(&draft.runs[s].seen_from(end)))
-            .collect();
+        let legs: Vec<(usize, usize)> =
+            at[joint].iter().copied().filter(|&(s, _)| s != r).collect();
+        let others = axes_at(draft, &legs);
         if others.is_empty() {
             continue;
         }
@@ -149,9 +146,19 @@ fn merge_into_interfaces(draft: &mut Draft, surface: &Surface) -> bool {
             continue;
         }
         let stem = run.seen_from(usize::from(run.hubs[1] == joint));
+        // Of a branch that bends back the joint lies behind the section, and far from it.
+        if stem.first().is_some_and(|s| s.direction.dot(&interfaces[i].normal) > 0.0) {
+            continue;
+        }
         let parting = match stem.first() {
-            Some(station) => station.centroid,
-            None => nearest_inside(surface, parting(draft, &at[joint], r), interfaces[i].centroid),
+            Some(first) => {
+                let is_shared = |s: &&Station| all_pass(&others, &s.centroid, OVERLAP);
+                stem.iter().find(is_shared).unwrap_or(first).centroid
+            }
+            None => {
+                let (from, to) = (parting(draft, &at[joint], r), interfaces[i].centroid);
+                nearest_inside(surface, first_overlap(&others, from, to), to)
+            }
         };
         let ahead = (parting - interfaces[i].centroid).dot(&interfaces[i].normal);
         if ahead > AT_INTERFACE * thickest && sees_all(draft, surface, &at[joint], &parting) {
@@ -169,6 +176,25 @@ fn merge_into_interfaces(draft: &mut Draft, surface: &Surface) -> bool {
     false
 }
 
+/// Steps of a way that are looked at for a place in which struts overlap, and halvings of the step to
+/// it: mirrored halves of a part differ by no more.
+const STEPS: u32 = 8;
+const HALVINGS: u32 = 10;
+
+/// The first place on a straight way in which all struts overlap; where there is none, its start.
+fn first_overlap(axes: &[Axis], from: Point3<f64>, to: Point3<f64>) -> Point3<f64> {
+    let place = |part: f64| from + (to - from) * part;
+    let is_shared = |part: f64| all_pass(axes, &place(part), OVERLAP);
+    let mut parts = (0..=STEPS).map(|k| f64::from(k) / f64::from(STEPS));
+    let Some(mut high) = parts.find(|&part| is_shared(part)) else { return from };
+    let mut low = (high - 1.0 / f64::from(STEPS)).max(0.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        *if is_shared(middle) { &mut high } else { &mut low } = middle;
+    }
+    place(high)
+}
+
 /// Middle of the sections next to a joint of the runs other than `stem`: where they part.
 fn parting(draft: &Draft, runs: &[(usize, usize)], stem: usize) -> Point3<f64> {
     let ends: Vec<nalgebra::Vector3<f64>> = runs
@@ -181,18 +207,4 @@ fn parting(draft: &Draft, runs: &[(usize, usize)], stem: usize) -> Point3<f64> {
         })
         .collect();
     Point3::from(ends.iter().sum::<nalgebra::Vector3<f64>>() / ends.len().max(1) as f64)
-}
-
-/// Whether the nearest sections of all runs at a joint are seen from a place inside the object.
-fn sees_all(
-    draft: &Draft,
-    surface: &Surface,
-    runs: &[(usize, usize)],
-    place: &Point3<f64>,
-) -> bool {
-    runs.iter().all(|&(r, end)| {
-        let stations = &draft.runs[r].stations;
-        let nearest = if end == 0 { stations.first() } else { stations.last() };
-        nearest.is_none_or(|s| is_inside(&surface.tree, place, &s.centroid))
-    })
 }
