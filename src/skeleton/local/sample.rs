@@ -248,7 +248,9 @@ fn least_between(run: &Run) -> usize {
 fn placed(shares: &[f64], least: usize) -> impl Iterator<Item = usize> {
     let last = shares.len() - 1;
     let mut best: Vec<usize> = (1..last).collect();
-    best.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
+    // Of equals that farthest from the joints.
+    let off = |i: usize| (2 * i).abs_diff(last);
+    best.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]).then(off(a).cmp(&off(b))));
     let mut is_placed: Vec<bool> = shares.iter().map(|s| *s >= OWN).collect();
     best.iter().take(least).for_each(|&i| is_placed[i] = true);
     (1..last).filter(move |&i| is_placed[i])
