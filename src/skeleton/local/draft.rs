@@ -76,6 +76,11 @@ impl Run {
         *radii.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 
+    /// The section nearest to one of its ends.
+    pub(crate) fn nearest_to(&self, end: usize) -> Option<&Station> {
+        if end == 0 { self.stations.first() } else { self.stations.last() }
+    }
+
     /// Whether it begins and ends in one hub.
     pub(crate) fn is_loop(&self) -> bool {
         self.hubs[0] == self.hubs[1]
@@ -188,7 +193,7 @@ impl Draft {
                 .iter()
                 .map(|&(r, end)| {
                     let run = &self.runs[r];
-                    let station = if end == 0 { run.stations.first() } else { run.stations.last() };
+                    let station = run.nearest_to(end);
                     station.map_or(self.hubs[run.hubs[1 - end]].position, |s| s.centroid)
                 })
                 .collect();

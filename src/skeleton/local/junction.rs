@@ -62,8 +62,7 @@ pub(crate) fn place_joints(draft: &mut Draft, surface: &Surface) {
 /// The meeting point, drawn back to the ball round the joint in which its branches end: axes that
 /// run side by side meet far away. Legs that part at a few degrees fill one thick branch before
 /// they do; the march took that for the stem, in whose way their axes meet. Legs that all leave to one
-/// side fill one lump; in that their axes meet, seen from the
-/// nearest sections of all.
+/// side fill one lump; in that their axes meet, seen from the nearest sections of all.
 fn within_reach(
     draft: &Draft,
     runs: &[(usize, usize)],
@@ -75,8 +74,7 @@ fn within_reach(
     let reach = runs
         .iter()
         .filter_map(|&(r, end)| {
-            let stations = &draft.runs[r].stations;
-            let nearest = if end == 0 { stations.first() } else { stations.last() };
+            let nearest = draft.runs[r].nearest_to(end);
             nearest.map(|s| (s.centroid - rough).norm() + s.radius)
         })
         .fold(0.0f64, f64::max);
@@ -118,8 +116,7 @@ pub(crate) fn sees_all(
     place: &Point3<f64>,
 ) -> bool {
     runs.iter().all(|&(r, end)| {
-        let stations = &draft.runs[r].stations;
-        let nearest = if end == 0 { stations.first() } else { stations.last() };
+        let nearest = draft.runs[r].nearest_to(end);
         nearest.is_none_or(|s| is_inside(&surface.tree, place, &s.centroid))
     })
 }

@@ -201,8 +201,7 @@ fn parting(draft: &Draft, runs: &[(usize, usize)], stem: usize) -> Point3<f64> {
         .iter()
         .filter(|(r, _)| *r != stem)
         .filter_map(|&(r, end)| {
-            let stations = &draft.runs[r].stations;
-            let nearest = if end == 0 { stations.first() } else { stations.last() };
+            let nearest = draft.runs[r].nearest_to(end);
             nearest.map(|s| s.centroid.coords)
         })
         .collect();
